@@ -1,0 +1,15 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace wrinkle {
+
+/// The one exception of the library. The text is written for the person who typed the command: which file, line or
+/// channel, what was found, what was expected, what to do.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace wrinkle

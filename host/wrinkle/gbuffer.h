@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// Names of the planes that travel between files, plans and kernels. A plane is one float per pixel, row by row.
+///
+///   role        planes                             meaning, unit
+///   position    position.x .y .z                   world, metres
+///   normal      normal.x .y .z                     world; any length, either side
+///   depth       depth                              planar view depth or ray distance, metres
+///   uv          uv.u uv.v                          texture coordinates, v up
+///   object      object                             object index
+///   duv_dx/_dy  duv_dx.u duv_dx.v ...              screen derivatives of uv, per pixel right / down
+///   dp_du/_dv   dp_du.x .y .z ...                  position per unit u / v
+///   albedo      albedo.r .g .b                     diffuse reflectance, linear
+///   roughness   roughness                          perceptual, GGX alpha = roughness^2
+///   beauty      beauty.r .g .b                     the finished picture, linear
+///   cryptomatte crypto.id0 crypto.coverage0 ...    ranked pairs; id is float bits
+/// Any other channel of the file is the plane "channel:NAME".
+namespace wrinkle {
+
+/// A role with its planes; the table of the comment above as data.
+struct Role {
+    std::string name;
+    std::vector<std::string> planes;
+};
+
+const std::vector<Role>& gbuffer_roles();
+
+/// Bits of the `marked` output plane, added up as a float.
+struct Marked {
+    static constexpr int invalid = 1;      ///< background, NaN, Inf, zero normal: the normal passes through
+    static constexpr int back_facing = 2;  ///< the normal faced away and was reflected towards the viewer
+    static constexpr int no_uv_derivative =
+        4;  ///< a bare UV plane without a usable neighbour: its layers are zero here
+};
+
+}  // namespace wrinkle

@@ -1,0 +1,188 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wrinkle/camera.h"
+
+/// A scene: what to read, which bump layers to add, what to write. Value types; nothing here knows files or OpenCL.
+/// README.md, "Scene format", is the reference of the TOML form; load_scene() reads it.
+namespace wrinkle {
+
+// --- Textures ------------------------------------------------------------------------------------------------------
+
+enum class Content { height, normal };  ///< what the texels mean: height in [0,1] units of `scale`, or a tangent normal
+enum class Upscale { plain, smooth };   ///< [Mik20 listing 16] isUpscaleHQ false or true
+enum class Wrap { repeat, clamp };
+
+struct TextureUse {
+    std::filesystem::path file;
+    Content content = Content::height;
+    Upscale upscale = Upscale::smooth;
+    Wrap wrap = Wrap::repeat;
+    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals only
+};
+
+// --- Texture coordinates -------------------------------------------------------------------------------------------
+
+enum class UvSource { aov, planar };
+
+/// (s,t) = rotate(scale * (u,v), rotation) + offset. t up. `planar`: u = axis_u . p, v = axis_v . p, world metres.
+struct UvMapping {
+    UvSource source = UvSource::aov;
+    std::array<double, 2> scale{1, 1}, offset{0, 0};
+    double rotation = 0;  ///< radians, anticlockwise
+    Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
+};
+
+// --- Masks: all that are given multiply ----------------------------------------------------------------------------
+
+struct MaskTexture {
+    std::filesystem::path file;
+    UvMapping uv;
+};
+
+struct Mask {
+    std::optional<double> object;  ///< pixels whose object index equals this
+    std::optional<std::string>
+        cryptomatte;                     ///< object name, or "#" and 8 hex digits of its hash; the coverage is the mask
+    std::optional<std::string> channel;  ///< name of a channel of the G-buffer, used as it is
+    std::optional<MaskTexture> texture;  ///< first channel of an image, [0,1]
+    bool invert = false;                 ///< 1 - product
+};
+
+// --- Layers --------------------------------------------------------------------------------------------------------
+
+/// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
+struct NormalMapLayer {
+    TextureUse texture{.content = Content::normal};
+    UvMapping uv;
+};
+
+/// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].
+struct HeightMapLayer {
+    TextureUse texture;
+    UvMapping uv;
+};
+
+/// Three planar projections along the world axes, blended by the normal [Mik20 4.4].
+struct TriplanarLayer {
+    TextureUse texture;
+    double tile = 1;       ///< metres per repeat of the texture
+    double sharpness = 3;  ///< exponent k of the weights, listing 14
+};
+
+/// Perlin 2002 gradient noise, a fractal sum: sum of gain^i noise(frequency lacunarity^i p), world space.
+struct NoiseLayer {
+    double frequency = 1;  ///< lattice cells per metre of the first octave
+    int octaves = 1;       ///< at most; those above the footprint's Nyquist frequency are not evaluated
+    double lacunarity = 2, gain = 0.5;
+};
+
+/// Oriented box projector [Mik20 4.5]. The image spans the box's x and y; it is projected along z.
+struct DecalLayer {
+    TextureUse texture;
+    Vec3 center{};
+    Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};  ///< made orthonormal; axis_z = axis_x x axis_y points at the projector
+    Vec3 half_size{0.5, 0.5, 0.5};          ///< metres
+    double falloff = 0.1;                   ///< share of the half size over which it fades to the box's faces, [0,1]
+    std::array<double, 2> angle_fade{0.25, 0.5};  ///< cosine of normal to axis_z: 0 below the first, 1 above the second
+};
+
+/// The same volume gradient everywhere: dh/dp, world.
+struct ConstantLayer {
+    Vec3 gradient{};
+};
+
+/// Normalise here and start a new stage on the resolved normal [Mik20 4.6].
+struct ResolveLayer {};
+
+enum class Blend { add, subtract };
+
+struct Layer {
+    std::string name;      ///< unique; "kind N" when the file gives none
+    std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
+    std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, ConstantLayer, ResolveLayer>
+        bump;
+    double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
+    Blend blend = Blend::add;
+    bool footprint = true;  ///< clamp mips and octaves to the pixel's footprint
+    Mask mask;
+};
+
+// --- Where the pixels come from and what is written ------------------------------------------------------------------
+
+enum class Geometry { automatic, depth, position };
+enum class DepthKind { automatic, planar, ray };
+
+struct GBufferSource {
+    std::filesystem::path file;  ///< may hold #### or %04d for the frame number
+    std::map<std::string, std::string>
+        roles;  ///< role (see wrinkle/gbuffer.h) to channel or layer name: overrides detection
+    Geometry geometry = Geometry::automatic;  ///< automatic prefers depth, for its digits
+    DepthKind depth = DepthKind::automatic;   ///< automatic: by the writer
+};
+
+struct CameraSource {
+    std::filesystem::path file;           ///< JSON with view, proj (rows); may hold the frame pattern
+    bool exr = false;                     ///< worldToCamera, worldToNDC (and their kin) of the G-buffer's header
+    std::optional<Camera> inline_camera;  ///< matrices as given
+    /// Set with `eye`, `target`, `fov`: aspect comes from the frame.
+    struct LookAt {
+        Vec3 eye{}, target{}, up{0, 0, 1};
+        double fov_y = 0;
+    };
+    std::optional<LookAt> look_at;
+    double max_residual = 0.5;  ///< pixels; a camera that reprojects positions worse than this is refused
+};
+
+enum class LightKind { sun, point, spot };
+
+struct Light {
+    LightKind kind = LightKind::sun;
+    Vec3 color{1, 1, 1};  ///< sun: irradiance at normal incidence; point, spot: radiant intensity (times intensity)
+    double intensity = 1;
+    Vec3 position{};                              ///< world; point, spot
+    Vec3 direction{0, 0, -1};                     ///< the way the light travels; sun, spot
+    double inner_angle = 0.4, outer_angle = 0.6;  ///< radians from the axis; spot
+};
+
+enum class Relight { off, lit, ratio };
+
+struct Lighting {
+    Relight relight = Relight::off;
+    Vec3 ambient{0, 0, 0};
+    Vec3 albedo{0.5, 0.5, 0.5};  ///< where the G-buffer has none
+    double roughness = 0.5;      ///< where the G-buffer has none
+    double f0 = 0.04;            ///< specular reflectance at normal incidence
+    double max_ratio = 4;        ///< bound of lit(new)/lit(old), and 1/bound below
+    double exposure = 0;         ///< stops, of the PNG only
+    std::vector<Light> lights;
+};
+
+struct Output {
+    bool surface_gradient = false, dp_dx = false, dp_dy = false, marked = false;  ///< beside the normal
+    bool passthrough = false;  ///< copy the channels and metadata of the input
+    bool half = false;         ///< 16-bit floats
+    bool png = true;           ///< lit.png beside lit.exr when relighting; normal.png too
+};
+
+struct Scene {
+    std::filesystem::path file;  ///< empty for scenes made in code
+    GBufferSource gbuffer;
+    CameraSource camera;
+    std::vector<Layer> layers;
+    Lighting lighting;
+    Output output;
+};
+
+/// Reads and checks a scene in full; relative paths are relative to the scene's folder.
+/// Throws Error listing every problem as "file:line: what was found; what is allowed", nearest known key included.
+Scene load_scene(const std::filesystem::path& file);
+
+}  // namespace wrinkle
