@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+
+#include "tests/reference/pyramid.h"
+#include "tests/reference/tangent_frame.h"
+
+namespace wrinkle::reference {
+
+/// Mip level of a texture w x h for screen derivatives of (s,t): 0.5 log2 of the longer squared footprint axis in
+/// texels, within [0, levels - 1].
+template <class T>
+T level_of_detail(TexDerivative<T> st, int w, int h, int levels) {
+    const auto squared = [&](Vec2<T> d) { return d.x * w * d.x * w + d.y * h * d.y * h; };
+    const T longest = std::max(squared(st.dx), squared(st.dy));
+    if (!(longest > 1)) return 0;
+    return std::min(std::log2(longest) / 2, T(levels - 1));
+}
+
+/// [Mik20 listing 16, isUpscaleHQ = false] dH/d(u,v) per level-0 texel: three taps 2^lod texels apart.
+template <class T>
+Vec2<T> plain_slope_per_texel(const Pyramid<T>& height, Vec2<T> st, T lod, Address wrap) {
+    const Level<T>& top = height.levels.front();
+    const T e = std::exp2(lod);
+    const T c = sample(height, 0, st, lod, wrap);
+    const T r = sample(height, 0, {st.x + e / top.width, st.y}, lod, wrap);
+    const T u = sample(height, 0, {st.x, st.y + e / top.height}, lod, wrap);
+    return {(r - c) / e, (u - c) / e};
+}
+
+/// The same per unit s and t.
+template <class T>
+Vec2<T> plain_slope(const Pyramid<T>& height, Vec2<T> st, T lod, Address wrap) {
+    const Level<T>& top = height.levels.front();
+    const Vec2<T> d = plain_slope_per_texel(height, st, lod, wrap);
+    return {d.x * top.width, d.y * top.height};
+}
+
+/// Sobel slope of a level at one of its texels, per texel: rows of D and B of [Mik20 eq. 20, 21].
+template <class T>
+Vec2<T> sobel(const Level<T>& level, std::int64_t x, std::int64_t y, Address wrap) {
+    const auto h = [&](int i, int j) { return level.at(0, x + i, y + j, wrap); };
+    const T du = (h(1, -1) - h(-1, -1)) + 2 * (h(1, 0) - h(-1, 0)) + (h(1, 1) - h(-1, 1));
+    const T dv = (h(-1, 1) - h(-1, -1)) + 2 * (h(0, 1) - h(0, -1)) + (h(1, 1) - h(1, -1));
+    return {du / 8, dv / 8};
+}
+
+/// [Mik20 eq. 20, and 21 with dH/dv on its left side] Bilinear Sobel slopes of one level, per texel of that level.
+template <class T>
+Vec2<T> smooth_slope_per_texel(const Level<T>& level, Vec2<T> st, Address wrap) {
+    const Bilinear<T> b = bilinear(level, st);
+    const auto at = [&](int i, int j) { return sobel(level, b.x + i, b.y + j, wrap); };
+    return (at(0, 0) * (1 - b.fx) + at(1, 0) * b.fx) * (1 - b.fy) + (at(0, 1) * (1 - b.fx) + at(1, 1) * b.fx) * b.fy;
+}
+
+/// Smooth slope per unit s and t, linear between the two levels next to lod.
+template <class T>
+Vec2<T> smooth_slope(const Pyramid<T>& height, Vec2<T> st, T lod, Address wrap) {
+    const auto at = [&](std::size_t i) {
+        const Level<T>& level = height.levels[i];
+        const Vec2<T> d = smooth_slope_per_texel(level, st, wrap);
+        return Vec2<T>{d.x * level.width, d.y * level.height};
+    };
+    const Trilinear<T> l = trilinear(height, lod);
+    if (l.f == 0) return at(l.level);
+    return at(l.level) * (1 - l.f) + at(l.level + 1) * l.f;
+}
+
+/// [Mik20 listing 16, isUpscaleHQ = true] as published: the plain slope fades into the smooth one of level 0 below a
+/// lod of 0.5. Per level-0 texel.
+template <class T>
+Vec2<T> published_slope_per_texel(const Pyramid<T>& height, Vec2<T> st, T lod, Address wrap) {
+    const T start = T(1) / 2, end = T(1) / 20;
+    const T mix = saturate((lod - start) / (end - start));
+    const Vec2<T> plain = plain_slope_per_texel(height, st, lod, wrap);
+    if (mix == 0) return plain;
+    return plain * (1 - mix) + smooth_slope_per_texel(height.levels.front(), st, wrap) * mix;
+}
+
+}  // namespace wrinkle::reference
