@@ -1,0 +1,71 @@
+#pragma once
+
+#include "tests/reference/screen_derivative.h"
+#include "wrinkle/camera.h"
+
+namespace wrinkle::reference {
+
+/// A camera's geometry relative to its eye, from its matrices alone.
+template <class T>
+class CameraRays {
+public:
+    CameraRays(const Camera& camera, Size size) : width_(size.width), height_(size.height) {
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j) proj_[i][j] = camera.proj[i][j];
+        const auto row = [&](int i) {
+            return Vec<T>{T(camera.view[i][0]), T(camera.view[i][1]), T(camera.view[i][2])};
+        };
+        right_ = row(0), up_ = row(1), back_ = row(2);
+        eye_ = -(right_ * T(camera.view[0][3]) + up_ * T(camera.view[1][3]) + back_ * T(camera.view[2][3]));
+        const Mat4x4<T>& p = proj_;
+        const auto zero = [](T a, T b, T c) { return a == 0 && b == 0 && c == 0; };
+        pinhole_ = zero(p[0][3], p[1][3], p[3][3]) && p[3][0] == 0 && p[3][1] == 0 && p[3][2] != 0;
+        if (pinhole_) {
+            d0_ = at_depth(0, 0, 1);
+            dx_ = at_depth(1, 0, 1) - d0_;
+            dy_ = at_depth(0, 1, 1) - d0_;
+        } else {
+            const Mat4x4<T> rotation{{{right_.x, right_.y, right_.z, 0},
+                                      {up_.x, up_.y, up_.z, 0},
+                                      {back_.x, back_.y, back_.z, 0},
+                                      {0, 0, 0, 1}}};
+            const Mat4x4<T> to_clip{{{2 / width_, 0, 0, -1}, {0, -2 / height_, 0, 1}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+            from_screen_ = product(inverted(product(proj_, rotation)), to_clip);
+        }
+    }
+
+    Vec<T> eye() const { return eye_; }  ///< world
+    bool pinhole() const { return pinhole_; }
+
+    /// The eye-relative point that the pixel position (x, y) sees at view depth z: camera-space (a, b, -z) with
+    /// clip.x = X clip.w and clip.y = Y clip.w, two linear equations in a and b.
+    Vec<T> at_depth(T x, T y, T z) const {
+        const T ndc_x = 2 * x / width_ - 1, ndc_y = 1 - 2 * y / height_;
+        const auto equation = [&](int i, T ndc) {
+            const auto c = [&](int j) { return proj_[i][j] - ndc * proj_[3][j]; };
+            return Vec<T>{c(0), c(1), c(2) * z - c(3)};
+        };
+        const Vec<T> e = equation(0, ndc_x), f = equation(1, ndc_y);
+        const T det = e.x * f.y - e.y * f.x;
+        return right_ * ((e.z * f.y - e.y * f.z) / det) + up_ * ((e.x * f.z - e.z * f.x) / det) - back_ * z;
+    }
+
+    /// The eye-relative point at distance t from the eye of a pinhole camera.
+    Vec<T> at_distance(T x, T y, T t) const { return normalize(at_depth(x, y, 1)) * t; }
+
+    /// dp/dx, dp/dy per pixel right and down of the plane through p (eye-relative) perpendicular to n. For a pinhole r
+    /// in p = r d is the least squares one, so that positions a little off the pixel's ray keep their distance.
+    ScreenDerivative<T> derivative(Vec<T> p, Vec<T> n, T x, T y) const {
+        if (!pinhole_) return screen_derivative(p, n, from_screen_, x, y);
+        const Vec<T> d = d0_ + dx_ * x + dy_ * y;
+        return screen_derivative_pinhole(dot(p, d) / dot(d, d), n, d, dx_, dy_);
+    }
+
+private:
+    T width_, height_;
+    Mat4x4<T> proj_{}, from_screen_{};
+    Vec<T> right_, up_, back_, eye_, d0_, dx_, dy_;
+    bool pinhole_ = false;
+};
+
+}  // namespace wrinkle::reference

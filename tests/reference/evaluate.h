@@ -1,0 +1,132 @@
+#pragma once
+
+#include "tests/reference/layers.h"
+#include "tests/reference/scene_mask.h"
+#include "tests/reference/volume_gradient.h"
+
+namespace wrinkle::reference {
+
+/// One evaluated pixel.
+template <class T>
+struct Evaluated {
+    bool valid = false;
+    Vec<T> normal;                   ///< resolved; of an invalid pixel the normal as it came, zero if not finite
+    Vec<T> base_normal;              ///< decoded: unit, towards the viewer
+    Vec<T> surface_gradient;         ///< of the last stage
+    ScreenDerivative<T> base, last;  ///< dp_dx, dp_dy on the base normal and on the last stage's normal
+    Vec<T> position, view;           ///< eye-relative; unit towards the eye
+    int marked = 0;                  ///< wrinkle/gbuffer.h, Marked
+    bool stage_reflected = false;    ///< the resolved normal of an earlier stage faced away and was reflected
+};
+
+/// Evaluates a scene pixel by pixel, in T. `planes` and `images` must outlive it.
+template <class T>
+class SceneEvaluator {
+public:
+    SceneEvaluator(const Scene& scene, Size size, const Camera& camera, Planes planes, const Images& images)
+        : scene_(scene), frame_(scene.gbuffer, size, camera, std::move(planes)) {
+        SceneTextures<T> textures(images);
+        for (const Layer& layer : scene.layers) {
+            const auto make = [&](const auto& bump) { return make_layer<T>(bump, layer.footprint, textures); };
+            const T sign = layer.blend == Blend::subtract ? T(-1) : T(1);
+            layers_.push_back({std::visit(make, layer.bump), sign * T(layer.scale),
+                               SceneMask<T>(layer.mask, layer.footprint, frame_, textures)});
+            uses_uv_ = uses_uv_ || reads_uv_plane(layer);
+        }
+    }
+
+    const Scene& scene() const { return scene_; }
+    const Frame<T>& frame() const { return frame_; }
+
+    Evaluated<T> evaluate(std::size_t i) const {
+        Evaluated<T> out;
+        const Decoded<T> here = frame_.decode(i);
+        if (!here.valid) {
+            const Vec<T> raw = frame_.raw_normal(i);
+            if (finite(raw)) out.normal = raw;
+            out.marked = Marked::invalid;
+            return out;
+        }
+        out.valid = true;
+        out.position = here.position;
+        out.view = here.view;
+        out.base_normal = here.normal;
+        out.base = out.last = frame_.derivative(i, here.position, here.normal);
+        if (here.reflected) out.marked |= Marked::back_facing;
+
+        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, std::nullopt};
+        if (uses_uv_) {
+            if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};
+            if (!s.uv) out.marked |= Marked::no_uv_derivative;
+        }
+        Vec<T> surface, volume;
+        const auto finish = [&] {
+            out.surface_gradient = surface + surface_gradient_from_volume(s.normal, volume);
+            out.normal = resolve(s.normal, out.surface_gradient);
+        };
+        for (const Entry& layer : layers_) {
+            if (!layer.function) {  // resolve
+                finish();
+                out.stage_reflected = out.stage_reflected || dot(out.normal, here.view) < 0;
+                s.normal = face_viewer(out.normal, here.view);
+                s.d = out.last = frame_.derivative(i, here.position, s.normal);
+                surface = volume = {};
+                continue;
+            }
+            const std::optional<T> mask = layer.mask.at(i, s);
+            if (!mask || *mask == 0) continue;
+            const Contribution<T> c = layer.function(s);
+            surface = surface + c.surface * (layer.scale * *mask);
+            volume = volume + c.volume * (layer.scale * *mask);
+        }
+        finish();
+        return out;
+    }
+
+    /// The colour the scene's lighting writes: lit, or the beauty plane times the ratio of lit to lit on the base
+    /// normal.
+    Vec<T> relit(std::size_t i, const Evaluated<T>& e) const {
+        const Lighting& lighting = scene_.lighting;
+        const bool ratio = lighting.relight == Relight::ratio;
+        const Vec<T> beauty = ratio ? rgb("beauty", i) : Vec<T>{};
+        if (lighting.relight == Relight::off || !e.valid) return beauty;
+        Surface<T> surface{from_array<T>(lighting.albedo), T(lighting.roughness), T(lighting.f0)};
+        if (frame_.has("albedo.r")) surface.albedo = rgb("albedo", i);
+        if (frame_.has("roughness")) surface.roughness = frame_.plane("roughness")[i];
+        const Vec<T> world = e.position + frame_.rays().eye();
+        const Vec<T> now = lit(lighting, e.normal, e.view, world, surface);
+        if (!ratio) return now;
+        const Vec<T> old = lit(lighting, e.base_normal, e.view, world, surface);
+        const T bound = lighting.max_ratio;
+        return {relight_ratio(beauty.x, now.x, old.x, bound), relight_ratio(beauty.y, now.y, old.y, bound),
+                relight_ratio(beauty.z, now.z, old.z, bound)};
+    }
+
+private:
+    struct Entry {
+        LayerFunction<T> function;  ///< empty: resolve
+        T scale;                    ///< with the blend's sign
+        SceneMask<T> mask;
+    };
+
+    static bool reads_uv_plane(const Layer& layer) {
+        const auto reads = [](const auto& bump) {
+            if constexpr (requires { bump.uv; })
+                return bump.uv.source == UvSource::aov;
+            else
+                return false;
+        };
+        return std::visit(reads, layer.bump) || (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
+    }
+
+    Vec<T> rgb(const std::string& role, std::size_t i) const {
+        return {T(frame_.plane(role + ".r")[i]), T(frame_.plane(role + ".g")[i]), T(frame_.plane(role + ".b")[i])};
+    }
+
+    Scene scene_;
+    Frame<T> frame_;
+    std::vector<Entry> layers_;
+    bool uses_uv_ = false;
+};
+
+}  // namespace wrinkle::reference

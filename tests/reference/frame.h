@@ -1,0 +1,135 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/reference/camera_rays.h"
+#include "tests/reference/resolve.h"
+#include "tests/reference/uv_derivative.h"
+#include "wrinkle/gbuffer.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle::reference {
+
+using Planes = std::map<std::string, std::span<const float>>;  ///< names of wrinkle/gbuffer.h
+
+/// A decoded pixel: where it is, its unit base normal towards the viewer.
+template <class T>
+struct Decoded {
+    bool valid = false, reflected = false;
+    Vec<T> position;  ///< eye-relative
+    Vec<T> view;      ///< unit, towards the eye
+    Vec<T> normal;
+};
+
+/// The G-buffer side of the evaluation: decodes pixels, differentiates the UV plane.
+template <class T>
+class Frame {
+public:
+    /// Depth is used if `source` says so or, where it leaves it open, if there is a depth plane; planar unless it says
+    /// ray.
+    Frame(const GBufferSource& source, Size size, const Camera& camera, Planes planes)
+        : size_(size), rays_(camera, size), planes_(std::move(planes)) {
+        const bool automatic = source.geometry == Geometry::automatic && planes_.contains("depth");
+        from_depth_ = source.geometry == Geometry::depth || automatic;
+        ray_distance_ = source.depth == DepthKind::ray;
+        for (const char* axis : {"x", "y", "z"}) {
+            normal_.push_back(planes_.at(std::string("normal.") + axis));
+            if (!from_depth_) position_.push_back(planes_.at(std::string("position.") + axis));
+        }
+        if (from_depth_) depth_ = planes_.at("depth");
+        if (planes_.contains("object")) object_ = planes_.at("object");
+    }
+
+    Size size() const { return size_; }
+    const CameraRays<T>& rays() const { return rays_; }
+    Vec2<T> centre(std::size_t i) const { return {T(i % size_.width) + T(1) / 2, T(i / size_.width) + T(1) / 2}; }
+    bool has(const std::string& name) const { return planes_.contains(name); }
+    std::span<const float> plane(const std::string& name) const { return planes_.at(name); }
+    Vec<T> raw_normal(std::size_t i) const { return {T(normal_[0][i]), T(normal_[1][i]), T(normal_[2][i])}; }
+
+    Decoded<T> decode(std::size_t i) const {
+        Decoded<T> d;
+        const Vec<T> n = raw_normal(i);
+        if (!finite(n) || is_zero(n)) return d;
+        const Vec2<T> xy = centre(i);
+        if (from_depth_) {
+            const T depth = depth_[i];
+            if (!(depth > 0 && depth < T(1e9))) return d;
+            d.position = ray_distance_ ? rays_.at_distance(xy.x, xy.y, depth) : rays_.at_depth(xy.x, xy.y, depth);
+        } else {
+            const Vec<T> p{T(position_[0][i]), T(position_[1][i]), T(position_[2][i])};
+            if (!finite(p)) return d;
+            d.position = p - rays_.eye();
+        }
+        d.valid = true;
+        d.view = normalize(-d.position);
+        const Vec<T> unit = normalize(n);
+        d.reflected = dot(unit, d.view) < 0;
+        d.normal = face_viewer(unit, d.view);
+        return d;
+    }
+
+    ScreenDerivative<T> derivative(std::size_t i, Vec<T> position, Vec<T> normal) const {
+        const Vec2<T> xy = centre(i);
+        return rays_.derivative(position, normal, xy.x, xy.y);
+    }
+
+    Vec2<T> uv(std::size_t i) const { return {T(plane("uv.u")[i]), T(plane("uv.v")[i])}; }
+
+    /// d(u,v)/d(x,y) of the UV plane: from duv_dx and duv_dy, else dp_du and dp_dv, else the neighbours; nothing where
+    /// there is none. `base` is the pixel's own dp_dx, dp_dy on its base normal.
+    std::optional<TexDerivative<T>> uv_derivative(std::size_t i, const Decoded<T>& here,
+                                                  const ScreenDerivative<T>& base) const {
+        std::optional<Vec2<T>> dx, dy;
+        if (has("duv_dx.u") && has("duv_dy.u")) {
+            dx = {T(plane("duv_dx.u")[i]), T(plane("duv_dx.v")[i])};
+            dy = {T(plane("duv_dy.u")[i]), T(plane("duv_dy.v")[i])};
+        } else if (has("dp_du.x") && has("dp_dv.x")) {
+            const auto read = [&](const std::string& name) {
+                return Vec<T>{T(plane(name + ".x")[i]), T(plane(name + ".y")[i]), T(plane(name + ".z")[i])};
+            };
+            const Vec<T> dp_du = read("dp_du"), dp_dv = read("dp_dv");
+            dx = uv_derivative_from_tangents(base.dp_dx, dp_du, dp_dv);
+            dy = uv_derivative_from_tangents(base.dp_dy, dp_du, dp_dv);
+        } else {
+            dx = from_neighbours(i, here, 1, i % size_.width, size_.width, base.dp_dx);
+            dy = from_neighbours(i, here, size_.width, i / size_.width, size_.height, base.dp_dy);
+        }
+        if (!dx || !dy || !finite(*dx) || !finite(*dy) || !finite(uv(i))) return std::nullopt;
+        return TexDerivative<T>{*dx, *dy};
+    }
+
+private:
+    UvPixel<T> uv_pixel(std::size_t i, const Decoded<T>& d) const {
+        std::optional<float> object;
+        if (!object_.empty()) object = object_[i];
+        return {d.valid, object, d.normal, d.position, uv(i)};
+    }
+
+    /// Pixels i + stride and i - stride lie at index + 1 and index - 1 of `count` along the axis.
+    std::optional<Vec2<T>> from_neighbours(std::size_t i, const Decoded<T>& here, std::size_t stride, std::size_t index,
+                                           std::size_t count, Vec<T> dp) const {
+        const UvPixel<T> centre = uv_pixel(i, here);
+        std::optional<Vec2<T>> forward, backward;
+        if (index + 1 < count) forward = uv_difference(centre, uv_pixel(i + stride, decode(i + stride)), dp);
+        if (index > 0) {
+            backward = uv_difference(centre, uv_pixel(i - stride, decode(i - stride)), dp);
+            if (backward) backward = *backward * T(-1);
+        }
+        return combine_differences(forward, backward);
+    }
+
+    Size size_;
+    CameraRays<T> rays_;
+    Planes planes_;
+    bool from_depth_ = false, ray_distance_ = false;
+    std::vector<std::span<const float>> normal_, position_;
+    std::span<const float> depth_, object_;
+};
+
+}  // namespace wrinkle::reference

@@ -1,0 +1,79 @@
+// The reflectance is reciprocal and loses no more energy than single scattering does; lights fall off as they should.
+#include "tests/reference/lighting.h"
+
+#include <gtest/gtest.h>
+
+namespace wrinkle::reference {
+namespace {
+
+using V = Vec<real>;
+
+V on_hemisphere(real cos_theta, real phi) {
+    const real s = std::sqrt(1 - cos_theta * cos_theta);
+    return {s * std::cos(phi), s * std::sin(phi), cos_theta};
+}
+
+/// Integral of brdf * n.l over the hemisphere, midpoint rule.
+V albedo_of(const Surface<real>& s, V v) {
+    const int steps = 200;
+    V sum;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const real c = (i + 0.5L) / steps, phi = 2 * std::numbers::pi_v<real> * (j + 0.5L) / steps;
+            sum = sum + brdf(V{0, 0, 1}, v, on_hemisphere(c, phi), s) * c;
+        }
+    return sum * (2 * std::numbers::pi_v<real> / (real(steps) * steps));
+}
+
+TEST(Lighting, ReflectanceIsReciprocal) {
+    const Surface<real> s{{0.2L, 0.5L, 0.8L}, 0.4L, 0.04L};
+    for (int i = 1; i < 20; ++i) {
+        const V v = on_hemisphere(i / 20.0L, i * 1.3L), l = on_hemisphere(1 - i / 25.0L, i * 2.9L);
+        EXPECT_LE(relative_error(brdf(V{0, 0, 1}, v, l, s), brdf(V{0, 0, 1}, l, v, s)), 1e-15L);
+    }
+}
+
+TEST(Lighting, WhiteFurnace) {
+    for (const real roughness : {0.3L, 0.5L, 0.8L, 1.0L})
+        for (const real c : {0.3L, 0.7L, 1.0L}) {
+            const real mirror = albedo_of({{}, roughness, 1}, on_hemisphere(c, 0.4L)).x;
+            EXPECT_LE(mirror, 1.001L) << roughness << " " << c;
+            EXPECT_GE(mirror, 0.3L) << roughness << " " << c;
+        }
+    EXPECT_NEAR(albedo_of({{}, 0.3L, 1}, {0, 0, 1}).x, 0.99L, 0.01L);
+    // alpha = 1 seen along the normal has the closed form 1 - ln 2.
+    EXPECT_NEAR(albedo_of({{}, 1, 1}, {0, 0, 1}).x, 1 - std::numbers::ln2_v<real>, 1e-5L);
+    const V diffuse = albedo_of({{0.5L, 0.25L, 1}, 1, 0}, {0, 0, 1}) - albedo_of({{}, 1, 0}, {0, 0, 1});
+    EXPECT_LE(length(diffuse - V{0.5L, 0.25L, 1}), 1e-5L);
+}
+
+TEST(Lighting, SunIsLambertPlusSpecular) {
+    Lighting lighting;
+    lighting.ambient = {0.1, 0.2, 0.3};
+    lighting.lights = {{LightKind::sun, {1, 1, 1}, 2, {}, {0, 0, -3}, 0, 0}};
+    const Surface<real> s{{0.5L, 0.5L, 0.5L}, 1, 0};
+    const real got = lit(lighting, V{0, 0, 1}, V{0, 0, 1}, V{}, s).x;
+    // n = v = l: f0 = 0 leaves no specular reflection.
+    EXPECT_NEAR(got, 0.5L * 0.1L + 2 * 0.5L / std::numbers::pi_v<real>, 1e-15L);
+    EXPECT_NEAR(lit(lighting, V{0, 0, -1}, V{0, 0, 1}, V{}, s).y, 0.5L * 0.2L, 1e-15L);
+}
+
+TEST(Lighting, PointAndSpotFallOff) {
+    Light light{LightKind::point, {1, 2, 3}, 8, {0, 0, 2}, {0, 0, -1}, 0.2, 0.4};
+    EXPECT_NEAR(arrival(light, V{}).irradiance.y, 4, 1e-18L);
+    light.kind = LightKind::spot;
+    EXPECT_NEAR(arrival(light, V{}).irradiance.y, 4, 1e-18L);
+    EXPECT_EQ(arrival(light, V{2 * std::tan(0.41L), 0, 0}).irradiance.y, 0);
+    const real middle = (std::cos(0.2L) + std::cos(0.4L)) / 2, x = 2 * std::tan(std::acos(middle));
+    EXPECT_NEAR(arrival(light, V{x, 0, 0}).irradiance.x, 8 / (4 + x * x) / 2, 1e-15L);
+}
+
+TEST(Lighting, RatioIsBounded) {
+    EXPECT_EQ(relight_ratio(2.0L, 1.0L, 1.0L, 4.0L), 2);
+    EXPECT_EQ(relight_ratio(2.0L, 1.0L, 0.0L, 4.0L), 8);
+    EXPECT_EQ(relight_ratio(2.0L, 0.0L, 1.0L, 4.0L), 0.5L);
+    EXPECT_EQ(relight_ratio(2.0L, 0.0L, 0.0L, 4.0L), 2);
+}
+
+}  // namespace
+}  // namespace wrinkle::reference

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "tests/reference/height_slope.h"
+#include "tests/reference/tangent_normal.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle::reference {
+
+using Images = std::map<std::string, Image>;  ///< key: the texture's file as the scene names it
+
+template <class T>
+struct TexCoord {
+    Vec2<T> st;
+    TexDerivative<T> d;
+};
+
+/// A texture of a layer, ready to give slopes.
+template <class T>
+struct LayerTexture {
+    std::shared_ptr<const Pyramid<T>> pyramid;  ///< height, or the two slopes of a tangent normal
+    Content content = Content::height;
+    Upscale upscale = Upscale::smooth;
+    Address wrap = Address::repeat;
+
+    T lod(const TexDerivative<T>& d, bool footprint) const {
+        const Level<T>& top = pyramid->levels.front();
+        return footprint ? level_of_detail(d, top.width, top.height, static_cast<int>(pyramid->levels.size())) : T(0);
+    }
+    /// Height: dh per unit s and t. Normal: the unitless slope.
+    Vec2<T> slope(const TexCoord<T>& at, bool footprint) const {
+        const T level = lod(at.d, footprint);
+        if (content == Content::normal)
+            return {sample(*pyramid, 0, at.st, level, wrap), sample(*pyramid, 1, at.st, level, wrap)};
+        if (upscale == Upscale::smooth) return smooth_slope(*pyramid, at.st, level, wrap);
+        return plain_slope(*pyramid, at.st, level, wrap);
+    }
+};
+
+/// Slopes [Mik20 listing 2] of the texels of a tangent normal map, [0,1] to [-1,1] first; mips average the slopes.
+template <class T>
+Pyramid<T> slope_pyramid(const Image& image, bool y_down) {
+    const std::size_t count = static_cast<std::size_t>(image.width) * image.height;
+    Level<T> top{image.width, image.height, std::vector<T>(2 * count)};
+    if (image.channels < 2) throw std::runtime_error("reference: a normal map needs at least two channels");
+    for (std::size_t i = 0; i < count; ++i) {
+        const float* c = image.texels.data() + i * image.channels;
+        const Vec<T> m{2 * T(c[0]) - 1, 2 * T(c[1]) - 1, image.channels > 2 ? 2 * T(c[2]) - 1 : T(0)};
+        const Vec2<T> d = image.channels > 2 ? slope_from_tangent_normal(m, y_down)
+                                             : slope_from_two_components<T>({m.x, y_down ? -m.y : m.y}, T(1e-6L));
+        top.texels[i] = d.x;
+        top.texels[count + i] = d.y;
+    }
+    return build_pyramid(std::move(top), 2);
+}
+
+/// Builds each pyramid once.
+template <class T>
+class SceneTextures {
+public:
+    explicit SceneTextures(const Images& images) : images_(images) {}
+
+    LayerTexture<T> slopes(const TextureUse& use, Content content) {
+        const bool y_down = content == Content::normal && use.y_down;
+        const Address wrap = use.wrap == Wrap::repeat ? Address::repeat : Address::clamp;
+        return {pyramid(use.file.string(), content, y_down), content, use.upscale, wrap};
+    }
+    /// First channel, repeated: a mask.
+    LayerTexture<T> values(const std::string& file) {
+        return {pyramid(file, Content::height, false), Content::height, Upscale::plain, Address::repeat};
+    }
+
+private:
+    std::shared_ptr<const Pyramid<T>> pyramid(const std::string& file, Content content, bool y_down) {
+        auto& slot = pyramids_[{file, content, y_down}];
+        if (slot) return slot;
+        const auto image = images_.find(file);
+        if (image == images_.end()) throw std::runtime_error("reference: texture not given: " + file);
+        slot = std::make_shared<const Pyramid<T>>(content == Content::normal ? slope_pyramid<T>(image->second, y_down)
+                                                                             : first_channel_pyramid<T>(image->second));
+        return slot;
+    }
+
+    const Images& images_;
+    std::map<std::tuple<std::string, Content, bool>, std::shared_ptr<const Pyramid<T>>> pyramids_;
+};
+
+}  // namespace wrinkle::reference

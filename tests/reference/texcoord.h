@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "tests/reference/lighting.h"
+#include "tests/reference/scene_textures.h"
+#include "tests/reference/screen_derivative.h"
+
+namespace wrinkle::reference {
+
+/// What a layer sees of its pixel: the surface of its stage.
+template <class T>
+struct Surfel {
+    Vec<T> position;  ///< world
+    Vec<T> normal;
+    ScreenDerivative<T> d;
+    std::optional<TexCoord<T>> uv;  ///< the UV plane; nothing without plane or derivative
+};
+
+/// Coordinates that are linear in the world point: derivatives by the chain rule.
+template <class T, class F>
+TexCoord<T> linear_coordinates(const F& st, Vec<T> point, const ScreenDerivative<T>& d) {
+    return {st(point), {st(d.dp_dx), st(d.dp_dy)}};
+}
+
+/// (s,t) = R(rotation) (scale (u,v)) + offset, and its derivatives; nothing where the UV plane has none.
+template <class T>
+std::optional<TexCoord<T>> map_coordinates(const UvMapping& m, const Surfel<T>& s) {
+    std::optional<TexCoord<T>> uv = s.uv;
+    if (m.source == UvSource::planar) {
+        const Vec<T> u = from_array<T>(m.axis_u), v = from_array<T>(m.axis_v);
+        uv = linear_coordinates([&](Vec<T> p) { return Vec2<T>{dot(u, p), dot(v, p)}; }, s.position, s.d);
+    }
+    if (!uv) return uv;
+    const T c = std::cos(T(m.rotation)), sn = std::sin(T(m.rotation));
+    const auto linear = [&](Vec2<T> a) {
+        const T x = a.x * T(m.scale[0]), y = a.y * T(m.scale[1]);
+        return Vec2<T>{c * x - sn * y, sn * x + c * y};
+    };
+    return TexCoord<T>{linear(uv->st) + Vec2<T>{T(m.offset[0]), T(m.offset[1])}, {linear(uv->d.dx), linear(uv->d.dy)}};
+}
+
+}  // namespace wrinkle::reference
