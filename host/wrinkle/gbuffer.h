@@ -33,6 +33,7 @@ const std::vector<Role>& gbuffer_roles();
 struct Marked {
     static constexpr int invalid = 1;      ///< background, NaN, Inf, zero normal: the normal passes through
     static constexpr int back_facing = 2;  ///< the normal faced away and was reflected towards the viewer
+    static constexpr int overflow = 8;     ///< a gradient too large for a float: the normal stays as it was
     static constexpr int no_uv_derivative =
         4;  ///< a bare UV plane without a usable neighbour: its layers are zero here
 };

@@ -60,7 +60,7 @@ struct Mask {
 
 /// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
 struct NormalMapLayer {
-    TextureUse texture{.content = Content::normal};
+    TextureUse texture{.file = {}, .content = Content::normal};
     UvMapping uv;
 };
 

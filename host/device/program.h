@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "wrinkle/device.h"
+
+namespace wrinkle {
+
+/// How a program came to be, for the table that `run` prints.
+enum class BuildSource { compiled, disk };
+
+struct BuiltProgram {
+    cl::Program program;
+    BuildSource source = BuildSource::compiled;
+    std::filesystem::path cache_file;  ///< empty: no cache folder
+};
+
+struct BuildOptions {
+    int lanes = 1;
+    bool fp64 = false;
+};
+
+/// Builds kernel text (with its #include lines) or takes it from the disk cache, whose key is a hash of the expanded
+/// source, the options, the device and its driver. A damaged cache entry is built anew.
+/// Throws Error with the compiler's log, file:line of the kernel file.
+BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options);
+
+/// Writes the program to its cache file, beside first, then renamed. Called after its kernels ran once, so that what
+/// the driver compiles at the first call is in it too. A cache that cannot be written is no error.
+void save_program(const BuiltProgram& built);
+
+/// WRINKLE_CACHE_DIR, else wrinkle/ under XDG_CACHE_HOME or ~/.cache; empty where none is set.
+std::filesystem::path cache_folder();
+
+}  // namespace wrinkle

@@ -1,0 +1,246 @@
+#include <fmt/format.h>
+
+#include "plan/section.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+/// Where positions come from.
+struct GeometryText {
+    std::vector<std::string> planes;
+    std::string valid;     // mask of the planes, as text; empty when they are always valid
+    std::string position;  // sets p from pixel (x, y) and plane values z or px, py, pz
+};
+
+GeometryText geometry_text(const Emitter& emitter) {
+    const Available& available = emitter.available;
+    const Geometry wanted = emitter.scene.gbuffer.geometry;
+    const bool depth_possible = emitter.has("depth") && available.camera != CameraKind::general &&
+                                !(available.ray_depth && available.camera == CameraKind::parallel);
+    const bool depth = wanted == Geometry::depth || (wanted == Geometry::automatic && depth_possible);
+    if (depth) {
+        emitter.need("geometry from depth", {"depth"});
+        if (!depth_possible)
+            throw Error(
+                "geometry from depth needs a pinhole camera, or planar depth under a parallel projection; set "
+                "geometry = \"position\"");
+        const bool parallel = available.camera == CameraKind::parallel;
+        return {{"depth"},
+                "wr_valid_depth(z)",
+                parallel              ? "vec3 p = wr_parallel_position(frame, x, y, wr_real(z));"
+                : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
+                                      : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));"};
+    }
+    emitter.need("the G-buffer's geometry (depth or position)", {"position.x", "position.y", "position.z"});
+    return {{"position.x", "position.y", "position.z"},
+            "wr_valid_position(px, py, pz)",
+            "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));"};
+}
+
+/// Text that loads and checks one pixel's geometry; `load` is the loading function with its place.
+std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent) {
+    std::string text;
+    if (geometry.planes.size() == 1) {
+        text += fmt::format("{}floats z = {};\n", indent, fmt::format(fmt::runtime(load), "in_depth"));
+    } else {
+        for (const char axis : {'x', 'y', 'z'})
+            text += fmt::format("{}floats p{} = {};\n", indent, axis,
+                                fmt::format(fmt::runtime(load), fmt::format("in_position_{}", axis)));
+    }
+    return text;
+}
+
+std::string load_normal(const std::string& load, const std::string& indent) {
+    std::string text;
+    for (const char axis : {'x', 'y', 'z'})
+        text += fmt::format("{}floats n{} = {};\n", indent, axis,
+                            fmt::format(fmt::runtime(load), fmt::format("in_normal_{}", axis)));
+    return text;
+}
+
+/// Replaces what invalid pixels hold by something harmless, so that nothing later needs to ask.
+std::string sanitize(const GeometryText& geometry, const std::string& indent) {
+    std::string text = geometry.planes.size() == 1 ? indent + "z = wr_valid_or(z, valid, 1);\n" : "";
+    if (geometry.planes.size() == 3)
+        for (const char axis : {'x', 'y', 'z'})
+            text += fmt::format("{0}p{1} = wr_valid_or(p{1}, valid, {2});\n", indent, axis, axis == 'z' ? 1 : 0);
+    return text;
+}
+
+const char* view_text(const Emitter& emitter) {
+    return emitter.available.camera == CameraKind::parallel ? "wr_v3(frame->forward)" : "p";
+}
+
+/// Arguments of the generated helpers: every plane they load.
+std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
+    std::string text;
+    std::vector<std::string> planes = geometry.planes;
+    planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z", "uv.u", "uv.v"});
+    if (object) planes.push_back("object");
+    for (const std::string& plane : planes)
+        text += fmt::format(", {}{}", declare ? "global const float *" : "", identifier(plane));
+    return text;
+}
+
+std::string neighbour_helper(const Emitter& emitter, const GeometryText& geometry, bool object) {
+    const std::string load = "wr_load_near({}, at, pixels)";
+    std::string text =
+        "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated.\n"
+        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
+        neighbour_planes(geometry, object, true) + ")\n{\n";
+    text += load_normal(load, "    ") + load_geometry(geometry, load, "    ");
+    text += fmt::format(
+        "    mask valid = wr_valid_normal(nx, ny, nz) & {} & (x > 0) & (y > 0) & (x < frame->width) & "
+        "(y < frame->height);\n",
+        geometry.valid);
+    text += sanitize(geometry, "    ") + "    " + geometry.position + "\n";
+    text += fmt::format(
+        "    floats u = wr_load_near(in_uv_u, at, pixels), v = wr_load_near(in_uv_v, at, pixels);\n"
+        "    valid = valid & wr_finite(u) & wr_finite(v);\n"
+        "    vec3 n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
+        "(real)(1)));\n"
+        "    mask away;\n"
+        "    n = wr_face_viewer(wr_normalize(n), {}, &away);\n"
+        "    real object = {};\n"
+        "    vec2 uv = wr_select(valid, wr_v2(wr_real(u), wr_real(v)), wr_v2((real)(0), (real)(0)));\n"
+        "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",
+        view_text(emitter), object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
+    return text;
+}
+
+/// Sets uv and uv_valid, from the best the G-buffer has.
+std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& section) {
+    section.inputs.insert({"uv.u", "uv.v"});
+    std::string text =
+        "        floats u = wr_load_floats(in_uv_u, at.in), v = wr_load_floats(in_uv_v, at.in);\n"
+        "        uv_valid = valid & wr_finite(u) & wr_finite(v);\n";
+    const auto all = [&](std::initializer_list<const char*> planes) {
+        for (const char* plane : planes)
+            if (!emitter.has(plane)) return false;
+        return true;
+    };
+    if (all({"duv_dx.u", "duv_dx.v", "duv_dy.u", "duv_dy.v"})) {
+        for (const char* axis : {"dx", "dy"}) {
+            for (const char* part : {"u", "v"}) {
+                const std::string plane = fmt::format("duv_{}.{}", axis, part);
+                section.inputs.insert(plane);
+                text += fmt::format(
+                    "        floats {1}_{2} = wr_load_floats({0}, at.in);\n"
+                    "        uv_valid = uv_valid & wr_finite({1}_{2});\n"
+                    "        uv.{1}.{3} = wr_real({1}_{2});\n",
+                    identifier(plane), axis, part, part[0] == 'u' ? 'x' : 'y');
+            }
+        }
+    } else if (all({"dp_du.x", "dp_du.y", "dp_du.z", "dp_dv.x", "dp_dv.y", "dp_dv.z"})) {
+        for (const char* side : {"du", "dv"}) {
+            text += fmt::format("        vec3 dp_{};\n", side);
+            for (const char axis : {'x', 'y', 'z'}) {
+                const std::string plane = fmt::format("dp_{}.{}", side, axis);
+                section.inputs.insert(plane);
+                text += fmt::format(
+                    "        {{ floats a = wr_load_floats({0}, at.in); uv_valid = uv_valid & wr_finite(a); dp_{1}.{2} "
+                    "= "
+                    "wr_real(a); }}\n",
+                    identifier(plane), side, axis);
+            }
+        }
+        text +=
+            "        uv.dx = wr_texcoord_step(dp_dx, dp_du, dp_dv, &uv_valid);\n"
+            "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
+        section.operations += 90;
+    } else {
+        const bool object = emitter.has("object");
+        if (object) section.inputs.insert("object");
+        emitter.helpers += neighbour_helper(emitter, geometry, object);
+        emitter.plan.neighbours = true;
+        const std::string planes = neighbour_planes(geometry, object, false);
+        text +=
+            "        long here = at.in, row = width;\n"
+            "        mask usable = uv_valid;\n"
+            "        wr_neighbour self = {wr_v2(wr_real(u), wr_real(v)), p, n, " +
+            std::string(object ? "wr_load(in_object, at.in)" : "0") + ", uv_valid};\n";
+        const struct {
+            const char *before, *after, *dp, *member;
+        } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y", "here + 1, in_pixels, at.x + 1, at.y", "dp_dx", "dx"},
+                    {"here - row, in_pixels, at.x, at.y - 1", "here + row, in_pixels, at.x, at.y + 1", "dp_dy", "dy"}};
+        for (const auto& axis : axes)
+            text += fmt::format(
+                "        uv.{3} = wr_texcoord_difference(self, wr_neighbour_at(frame, {0}{4}),\n"
+                "                                       wr_neighbour_at(frame, {1}{4}), {2}, &usable);\n",
+                axis.before, axis.after, axis.dp, axis.member, planes);
+        text += "        uv_valid = usable;\n";
+        section.operations += 420;
+    }
+    text +=
+        "        marked += (valid & !uv_valid) ? (real)(4) : (real)(0);\n"
+        "        uv.st = wr_select(uv_valid, wr_v2(wr_real(u), wr_real(v)), wr_v2((real)(0), (real)(0)));\n"
+        "        uv.dx = wr_select(uv_valid, uv.dx, wr_v2((real)(0), (real)(0)));\n"
+        "        uv.dy = wr_select(uv_valid, uv.dy, wr_v2((real)(0), (real)(0)));\n";
+    return text;
+}
+
+}  // namespace
+
+std::string derivative_text(const Emitter& emitter) {
+    if (emitter.available.camera == CameraKind::pinhole)
+        return "        vec3 d = wr_ray(frame, at.x, at.y);\n"
+               "        wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
+    return "        wr_screen_derivatives_general(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n";
+}
+
+std::string face_viewer_text(const Emitter& emitter) {
+    return fmt::format(
+        "        mask away;\n"
+        "        n = wr_face_viewer(n, {}, &away);\n",
+        view_text(emitter));
+}
+
+Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
+    const GeometryText geometry = geometry_text(emitter);
+    Section section;
+    section.title = "decode the G-buffer";
+    section.inputs.insert(geometry.planes.begin(), geometry.planes.end());
+    std::string& text = section.body;
+    text = load_geometry(geometry, "wr_load_floats({}, at.in)", "        ");
+    const bool normal = emitter.options.normal;
+    if (normal) {
+        emitter.need("the base normal", {"normal.x", "normal.y", "normal.z"});
+        section.inputs.insert({"normal.x", "normal.y", "normal.z"});
+        text += load_normal("wr_load_floats({}, at.in)", "        ");
+    }
+    text += fmt::format("        valid = {}{};\n", normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid);
+    text += "        marked = valid ? (real)(0) : (real)(1);\n";
+    text += sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " +
+            geometry.position.substr(std::string("vec3 ").size()) + "\n";
+    section.writes.insert({"valid", "marked", "p"});
+    if (normal) {
+        text +=
+            "        n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
+            "(real)(1)));\n"
+            "        n = wr_normalize(n);\n";
+        text += "        {\n" + face_viewer_text(emitter) +
+                "        marked += (valid & away) ? (real)(2) : (real)(0);\n        }\n";
+        section.writes.insert("n");
+        section.operations += 30;
+    } else if (wanted.contains("dp_dx")) {
+        text += fmt::format("        vec3 n = wr_scale(wr_normalize({}), (real)(-1));\n", view_text(emitter));
+    }
+    if (wanted.contains("base")) {
+        text += "        base = n;\n";
+        section.writes.insert("base");
+    }
+    if (wanted.contains("dp_dx")) {
+        text += "        {\n" + derivative_text(emitter) + "        }\n";
+        section.writes.insert({"dp_dx", "dp_dy"});
+        section.operations += 62;
+    }
+    if (wanted.contains("uv")) {
+        text += emit_uv(emitter, geometry, section);
+        section.writes.insert({"uv", "uv_valid"});
+    }
+    return section;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include "plan/section.h"
+
+namespace wrinkle {
+
+Section emit_resolve(Emitter& emitter, bool surface, bool volume, bool more, const std::set<std::string>& wanted) {
+    Section section;
+    section.title = "resolve";
+    section.reads = {"valid", "n"};
+    section.writes = {"n", "g"};
+    std::string& text = section.body;
+    if (surface || volume) section.reads.insert("g");
+    if (volume) {
+        section.reads.insert("dh_dp");
+        text += "        g = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
+        section.operations += 30;
+    }
+    text +=
+        "        vec3 bumped = wr_resolve(n, g);\n"
+        "        mask sound = wr_sound(bumped);\n"
+        "        n = wr_select(valid & sound, bumped, n);\n"
+        "        marked += (valid & !sound & (marked < 8)) ? (real)(8) : (real)(0);\n";
+    section.reads.insert("marked");
+    section.writes.insert("marked");
+    section.operations += 24;
+    if (!more) return section;
+
+    section.reads.insert("p");
+    section.writes.insert("dh_dp");
+    text +=
+        "        {\n" + face_viewer_text(emitter) + "        }\n        g = wr_zero3();\n        dh_dp = wr_zero3();\n";
+    if (wanted.contains("dp_dx")) {
+        text += "        {\n" + derivative_text(emitter) + "        }\n";
+        section.writes.insert({"dp_dx", "dp_dy"});
+        section.operations += 62;
+    }
+    return section;
+}
+
+Section emit_lighting(Emitter& emitter) {
+    const Lighting& lighting = emitter.scene.lighting;
+    const bool ratio = lighting.relight == Relight::ratio;
+    Section section;
+    section.title = ratio ? "relight the picture by lit(new) / lit(old)" : "light";
+    section.reads = {"valid", "p", "n"};
+    section.writes = {"lit"};
+    const auto planes = [&](std::initializer_list<const char*> names) {
+        for (const char* name : names)
+            if (!emitter.has(name)) return false;
+        section.inputs.insert(names.begin(), names.end());
+        return true;
+    };
+    std::string& text = section.body;
+    text = emitter.available.camera == CameraKind::parallel
+               ? "        vec3 v = wr_scale(wr_v3(frame->forward), (real)(-1));\n"
+               : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n";
+    text += planes({"albedo.r", "albedo.g", "albedo.b"})
+                ? "        vec3 albedo = wr_v3(wr_load(in_albedo_r, at.in), wr_load(in_albedo_g, at.in), "
+                  "wr_load(in_albedo_b, at.in));\n"
+                : "        vec3 albedo = wr_v3(lighting->albedo);\n";
+    text += planes({"roughness"}) ? "        real roughness = wr_load(in_roughness, at.in);\n"
+                                  : "        real roughness = lighting->roughness;\n";
+    text += "        lit = wr_light_surface(p, n, v, albedo, roughness, lighting, lights);\n";
+    section.operations = 20 + 75.0 * static_cast<double>(lighting.lights.size());
+    if (!ratio) {
+        text += "        lit = wr_select(valid, lit, wr_zero3());\n";
+        return section;
+    }
+    emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
+    planes({"beauty.r", "beauty.g", "beauty.b"});
+    section.reads.insert("base");
+    section.operations *= 2;
+    text += "        vec3 old = wr_light_surface(p, base, v, albedo, roughness, lighting, lights);\n";
+    const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
+    for (const auto& part : parts)
+        text += fmt::format(
+            "        real {1} = wr_load(in_beauty_{1}, at.in);\n"
+            "        lit.{0} = valid ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
+            part.axis, part.color);
+    return section;
+}
+
+Section emit_output(Emitter& emitter, bool bumped) {
+    const Output& output = emitter.scene.output;
+    Section section;
+    section.title = "write";
+    section.reads = {"valid"};
+    std::string& text = section.body;
+    const auto store = [&](const std::string& plane, const std::string& value) {
+        section.outputs.push_back(plane);
+        text += fmt::format("        wr_stream({}, out_{}, at.out);\n", value, identifier(plane).substr(3));
+    };
+    const auto store3 = [&](const std::string& role, const std::string& value) {
+        section.reads.insert(value);
+        for (const char axis : {'x', 'y', 'z'})
+            store(fmt::format("{}.{}", role, axis), fmt::format("valid ? {}.{} : (real)(0)", value, axis));
+    };
+    if (emitter.options.volume_gradient) {
+        store3("volume_gradient", "dh_dp");
+        return section;
+    }
+    if (emitter.options.write_normal) {
+        section.reads.insert("n");
+        section.inputs.insert({"normal.x", "normal.y", "normal.z"});
+        // An invalid pixel keeps what it had, unless that was not finite.
+        for (const char axis : {'x', 'y', 'z'}) {
+            text += fmt::format("        floats n{0} = wr_load_floats(in_normal_{0}, at.in);\n", axis);
+            store(fmt::format("normal.{}", axis),
+                  fmt::format("valid ? n.{0} : wr_real(wr_valid_or(n{0}, wr_finite(n{0}), 0))", axis));
+        }
+    }
+    if (output.surface_gradient) {
+        if (!bumped) text += "        g = wr_zero3();\n";
+        store3("surface_gradient", "g");
+    }
+    if (output.dp_dx) store3("dp_dx", "dp_dx");
+    if (output.dp_dy) store3("dp_dy", "dp_dy");
+    if (output.marked) {
+        section.reads.insert("marked");
+        store("marked", "marked");
+    }
+    if (emitter.scene.lighting.relight != Relight::off) {
+        section.reads.insert("lit");
+        const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
+        for (const auto& part : parts) store(fmt::format("lit.{}", part.color), fmt::format("lit.{}", part.axis));
+    }
+    return section;
+}
+
+}  // namespace wrinkle

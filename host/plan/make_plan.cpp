@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/section.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+/// The layers between two resolves.
+struct Stage {
+    std::vector<Section> layers;
+    std::set<std::string> reads;
+    bool surface = false, volume = false;
+};
+
+std::vector<Stage> emit_stages(Emitter& emitter) {
+    std::vector<Stage> stages(1);
+    const std::vector<Layer>& layers = emitter.scene.layers;
+    for (std::size_t i = 0; i < layers.size();) {
+        if (std::holds_alternative<ResolveLayer>(layers[i].bump)) {
+            stages.emplace_back();
+            ++i;
+            continue;
+        }
+        const std::size_t count = layers_together(layers, i);
+        std::vector<const Layer*> together;
+        for (std::size_t k = 0; k < count; ++k) together.push_back(&layers[i + k]);
+        Stage& stage = stages.back();
+        stage.layers.push_back(emit_layers(emitter, together));
+        const Section& section = stage.layers.back();
+        stage.reads.insert(section.reads.begin(), section.reads.end());
+        stage.surface |= section.writes.contains("g");
+        stage.volume |= section.writes.contains("dh_dp");
+        i += count;
+    }
+    return stages;
+}
+
+/// The sections of the whole evaluation, in order.
+std::vector<Section> emit_sections(Emitter& emitter) {
+    std::vector<Stage> stages = emit_stages(emitter);
+    std::set<std::string> first = stages.front().reads;
+    for (const Stage& stage : stages)  // texture coordinates are decoded once, for all stages; they need derivatives
+        if (stage.reads.contains("uv")) first.insert({"uv", "dp_dx"});
+    const Output& output = emitter.scene.output;
+    if (output.dp_dx || output.dp_dy) first.insert("dp_dx");
+    const bool relight = emitter.scene.lighting.relight != Relight::off;
+    if (emitter.scene.lighting.relight == Relight::ratio) first.insert("base");
+
+    std::vector<Section> sections;
+    const auto add = [&](Section section, int stage) {
+        section.stage = stage;
+        sections.push_back(std::move(section));
+    };
+    add(emit_decode(emitter, first), 0);
+    bool bumped = false;
+    for (std::size_t s = 0; s < stages.size(); ++s) {
+        Stage& stage = stages[s];
+        for (Section& layer : stage.layers) add(std::move(layer), static_cast<int>(s));
+        const bool more = s + 1 < stages.size();
+        if (emitter.options.write_normal && (stage.surface || stage.volume || more)) {
+            const std::set<std::string> next = more ? stages[s + 1].reads : std::set<std::string>{};
+            add(emit_resolve(emitter, stage.surface, stage.volume, more, next), static_cast<int>(s));
+            bumped |= stage.surface || stage.volume;
+        }
+    }
+    const int last = static_cast<int>(stages.size()) - 1;
+    if (relight && emitter.options.write_normal) add(emit_lighting(emitter), last);
+    add(emit_output(emitter, bumped), last);
+    if (emitter.options.split)  // where fused kernels start from zero, split ones must find zero in memory
+        for (const char* sum : {"g", "dh_dp"})
+            if (std::ranges::any_of(sections, [&](const Section& s) { return s.reads.contains(sum); }))
+                sections.front().writes.insert(sum);
+    return sections;
+}
+
+/// Concept files of every plan; the compiler drops what is not called.
+constexpr const char* kIncludes =
+    "#include \"lanes.clh\"\n#include \"vec.clh\"\n#include \"constants.clh\"\n#include \"layout.h\"\n"
+    "#include \"surface/gbuffer.clh\"\n#include \"surface/screen_derivative.clh\"\n"
+    "#include \"surface/texcoord_derivative.clh\"\n#include \"surface/tangent_frame.clh\"\n"
+    "#include \"surface/surface_gradient.clh\"\n#include \"sources/texture.clh\"\n#include \"sources/height_map.clh\"\n"
+    "#include \"sources/triplanar.clh\"\n#include \"sources/noise_table.clh\"\n#include \"sources/noise.clh\"\n"
+    "#include \"sources/fractal.clh\"\n#include \"sources/decal.clh\"\n#include \"compose/mask.clh\"\n"
+    "#include \"compose/resolve.clh\"\n#include \"shade/lighting.clh\"\n\n";
+
+/// Scratch planes of a value, in split plans.
+std::vector<std::string> scratch_planes(const Value& value) {
+    std::vector<std::string> planes;
+    for (std::size_t i = 0; i < value.parts.size(); ++i) planes.push_back(fmt::format("{}_{}", value.name, i));
+    return planes;
+}
+
+std::string declare(const Value& value) {
+    const std::string type = value.type;
+    const std::string zero = type == "vec3" ? "wr_zero3()" : type == "wr_texcoord" ? "{{0, 0}, {0, 0}, {0, 0}}" : "0";
+    return fmt::format("    {} {} = {};\n", type, value.name, zero);
+}
+
+/// Kernel text of consecutive sections. Split plans carry values through scratch planes.
+PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector<const Section*>& sections,
+                          bool split) {
+    std::set<std::string> inputs, used, loaded, stored;
+    std::vector<std::string> outputs;
+    for (const Section* section : sections) {
+        inputs.insert(section->inputs.begin(), section->inputs.end());
+        outputs.insert(outputs.end(), section->outputs.begin(), section->outputs.end());
+        for (const auto& names : {section->reads, section->writes}) used.insert(names.begin(), names.end());
+        if (split) {
+            loaded.insert(section->reads.begin(), section->reads.end());
+            stored.insert(section->writes.begin(), section->writes.end());
+        }
+    }
+    PlannedKernel kernel{name, {inputs.begin(), inputs.end()}, {}, outputs};
+    std::string load, store;
+    for (const Value& value : values()) {
+        if (!split || (!loaded.contains(value.name) && !stored.contains(value.name))) continue;
+        const std::vector<std::string> planes = scratch_planes(value);
+        kernel.scratch.insert(kernel.scratch.end(), planes.begin(), planes.end());
+        const bool truth = std::string(value.type) == "mask";
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            const std::string part = fmt::format("{}{}", value.name, value.parts[i]);
+            const std::string from = fmt::format("wr_load_real(scratch_{}, at.out)", planes[i]);
+            if (loaded.contains(value.name)) load += fmt::format("    {} = {};\n", part, truth ? from + " != 0" : from);
+            if (stored.contains(value.name))
+                store += fmt::format("    wr_store({}, scratch_{}, at.out);\n",
+                                     truth ? part + " ? (real)(1) : (real)(0)" : part, planes[i]);
+        }
+    }
+
+    std::string& text = plan.source;
+    text += fmt::format(
+        "kernel void {}(constant const wr_frame *frame, constant const WR_SCALAR *origins,\n"
+        "    global const float *restrict texels, global const uint *restrict textures,\n"
+        "    global const wr_decal *restrict decals, constant const wr_lighting *lighting, constant const wr_light "
+        "*lights,\n",
+        name);
+    for (const std::string& plane : kernel.inputs)
+        text += fmt::format("    global const float *restrict {},\n", identifier(plane));
+    for (const std::string& plane : kernel.scratch)
+        text += fmt::format("    global WR_SCALAR *restrict scratch_{},\n", plane);
+    for (const std::string& plane : kernel.outputs)
+        text += fmt::format("    global WR_SCALAR *restrict out_{},\n", identifier(plane).substr(3));
+    text +=
+        "    uint in_first, uint in_pixels, uint first_row, uint width, uint pixels)\n{\n"
+        "    if (get_global_id(0) * WR_LANES >= pixels) return;  // the global size is padded\n"
+        "    wr_pixels at = wr_pixels_of(get_global_id(0), in_first, first_row, width);\n";
+    for (const Value& value : values())
+        if (used.contains(value.name)) text += declare(value);
+    text += load;
+    for (const Section* section : sections) {
+        text += fmt::format("\n    // stage {}: {}\n    {{\n{}    }}\n", section->stage, section->title, section->body);
+        plan.sections.push_back(
+            {section->stage, section->title, {section->inputs.begin(), section->inputs.end()}, section->operations});
+    }
+    text += store + "}\n\n";
+    return kernel;
+}
+
+}  // namespace
+
+Plan make_plan(const Scene& scene, const Available& available, const PlanOptions& options) {
+    Emitter emitter{scene, available, options, {}, {}};
+    const std::vector<Section> sections = emit_sections(emitter);
+    Plan plan = std::move(emitter.plan);
+    plan.source = kIncludes + emitter.helpers;
+
+    std::set<std::string> inputs;
+    const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {
+        plan.kernels.push_back(emit_kernel(plan, name, together, options.split));
+        const PlannedKernel& kernel = plan.kernels.back();
+        inputs.insert(kernel.inputs.begin(), kernel.inputs.end());
+        plan.outputs.insert(plan.outputs.end(), kernel.outputs.begin(), kernel.outputs.end());
+    };
+    std::vector<const Section*> all;
+    for (const Section& section : sections) {
+        if (options.split)
+            add_kernel(fmt::format("wr_section_{}", plan.kernels.size()), {&section});
+        else
+            all.push_back(&section);
+    }
+    if (!options.split) add_kernel("wr_evaluate", all);
+    plan.inputs.assign(inputs.begin(), inputs.end());
+    plan.bytes = sizeof(float) * static_cast<double>(plan.inputs.size() + plan.outputs.size());
+    for (const PlannedKernel& kernel : plan.kernels)
+        plan.bytes += 1.5 * sizeof(float) * static_cast<double>(kernel.scratch.size());
+    return plan;
+}
+
+CameraKind camera_kind(const Camera& camera, Size size) {
+    if (pinhole_rays(camera, size)) return CameraKind::pinhole;
+    const auto& w = camera.proj[3];
+    return w[0] == 0 && w[1] == 0 && w[2] == 0 ? CameraKind::parallel : CameraKind::general;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "wrinkle/camera.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle {
+
+/// How a camera's pixels become positions.
+enum class CameraKind {
+    pinhole,   ///< one eye point; the pinhole form of the screen derivatives
+    parallel,  ///< no eye point; the general 4x4 form
+    general,   ///< anything else; the general form, positions from planes
+};
+
+CameraKind camera_kind(const Camera& camera, Size size);
+
+/// What a plan may count on.
+struct Available {
+    std::set<std::string> planes;  ///< names as in wrinkle/gbuffer.h
+    CameraKind camera = CameraKind::pinhole;
+    bool ray_depth = false;                            ///< the depth plane holds distances along rays
+    std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of the known object names
+};
+
+/// What is wanted of a plan beyond the scene.
+struct PlanOptions {
+    bool split = false;  ///< one kernel a section, through memory, instead of one fused kernel: to test and to compare
+    bool normal = true;  ///< there is a base normal
+    bool write_normal = true;      ///< resolve and write it
+    bool volume_gradient = false;  ///< write the sum of the volume gradients before any projection (accumulate_decals)
+    bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
+};
+
+/// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period) when that is
+/// set.
+struct Origin {
+    std::array<Vec3, 3> axes{};
+    Vec3 offset{};
+    double period = 0;
+};
+
+/// A texture as kernels sample it.
+enum class TexelKind { slope, height, mask };
+struct PlannedTexture {
+    TextureUse use;
+    TexelKind kind = TexelKind::slope;
+};
+
+/// One kernel: its planes in the order of its arguments. Scratch planes exist in split plans only.
+struct PlannedKernel {
+    std::string name;
+    std::vector<std::string> inputs, scratch, outputs;
+};
+
+/// What `wrinkle explain` says of a section.
+struct SectionSummary {
+    int stage = 0;
+    std::string title;
+    std::vector<std::string> planes;  ///< channels that it reads
+    double operations = 0;            ///< expected per pixel, where nothing is skipped
+};
+
+/// A scene turned into kernel text: only the layers, channels, octaves and options that it needs.
+struct Plan {
+    std::string source;  ///< entry kernels; concept files are included by name
+    std::vector<PlannedKernel> kernels;
+    std::vector<std::string> inputs, outputs;
+    std::vector<PlannedTexture> textures;
+    std::vector<Origin> origins;
+    std::vector<DecalLayer> decals;    ///< in the order of the decal table
+    std::vector<double> decal_scales;  ///< signed
+    std::vector<std::size_t> decal_textures;
+    bool neighbours = false;  ///< reads pixels of the rows above and below
+    std::vector<SectionSummary> sections;
+    double bytes = 0;  ///< expected per pixel: planes read and written once
+};
+
+/// Throws Error naming the layer and the planes it lacks.
+Plan make_plan(const Scene& scene, const Available& available, const PlanOptions& options = {});
+
+}  // namespace wrinkle

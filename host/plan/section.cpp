@@ -1,0 +1,89 @@
+#include "plan/section.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+const std::vector<Value>& values() {
+    static const std::vector<Value> all{
+        {"valid", "mask", {""}},
+        {"marked", "real", {""}},
+        {"p", "vec3", {".x", ".y", ".z"}},
+        {"n", "vec3", {".x", ".y", ".z"}},
+        {"base", "vec3", {".x", ".y", ".z"}},
+        {"dp_dx", "vec3", {".x", ".y", ".z"}},
+        {"dp_dy", "vec3", {".x", ".y", ".z"}},
+        {"uv", "wr_texcoord", {".st.x", ".st.y", ".dx.x", ".dx.y", ".dy.x", ".dy.y"}},
+        {"uv_valid", "mask", {""}},
+        {"g", "vec3", {".x", ".y", ".z"}},
+        {"dh_dp", "vec3", {".x", ".y", ".z"}},
+        {"lit", "vec3", {".x", ".y", ".z"}},
+    };
+    return all;
+}
+
+std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
+    for (std::size_t i = 0; i < plan.textures.size(); ++i) {
+        const PlannedTexture& known = plan.textures[i];
+        if (known.kind == kind && known.use.file == use.file && known.use.content == use.content &&
+            known.use.wrap == use.wrap && known.use.y_down == use.y_down)
+            return i;
+    }
+    plan.textures.push_back({use, kind});
+    return plan.textures.size() - 1;
+}
+
+std::size_t Emitter::origin(const Origin& origin) {
+    plan.origins.push_back(origin);
+    return plan.origins.size() - 1;
+}
+
+void Emitter::need(const std::string& who, const std::vector<std::string>& planes) const {
+    std::string missing;
+    for (const std::string& plane : planes)
+        if (!has(plane)) missing += (missing.empty() ? "" : ", ") + plane;
+    if (missing.empty()) return;
+    std::string found;
+    for (const std::string& plane : available.planes) found += (found.empty() ? "" : ", ") + plane;
+    throw Error(fmt::format("{} needs {}; the G-buffer has {}", who, missing, found.empty() ? "nothing" : found));
+}
+
+std::uint32_t Emitter::cryptomatte_hash(const std::string& name, const std::string& who) const {
+    if (name.size() == 9 && name[0] == '#' && name.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos)
+        return static_cast<std::uint32_t>(std::stoul(name.substr(1), nullptr, 16));
+    if (const auto known = available.cryptomatte.find(name); known != available.cryptomatte.end()) return known->second;
+    std::string names;
+    for (const auto& [other, hash] : available.cryptomatte) names += (names.empty() ? "" : ", ") + other;
+    throw Error(fmt::format("{} names the Cryptomatte object \"{}\"; the file knows {}", who, name,
+                            names.empty() ? "no names: give its hash as # and 8 hex digits" : names));
+}
+
+std::string literal(double value) {
+    std::string digits = fmt::format("{:.17g}", value);
+    if (const std::string shorter = fmt::format("{}", value); std::stod(shorter) == value) digits = shorter;
+    if (digits.find_first_of(".en") == std::string::npos) digits += ".0";
+    return fmt::format("WR_R({})", digits);
+}
+
+std::string literal(const Vec3& v) {
+    return fmt::format("wr_v3((real)({}), (real)({}), (real)({}))", literal(v[0]), literal(v[1]), literal(v[2]));
+}
+
+std::string identifier(const std::string& plane) {
+    std::string name;
+    for (const char c : plane) {
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            name += c;
+        else if (c == '.' || c == '_')
+            name += '_';
+        else
+            name += fmt::format("_{:02x}", static_cast<unsigned char>(c));
+    }
+    return "in_" + name;
+}
+
+}  // namespace wrinkle

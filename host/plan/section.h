@@ -1,0 +1,78 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "plan/plan.h"
+
+namespace wrinkle {
+
+/// A value that sections hand on: a variable in a fused kernel, planes between split ones.
+struct Value {
+    const char* name;
+    const char* type;
+    std::vector<const char*> parts;  ///< members; {""} for a plain real
+};
+
+const std::vector<Value>& values();
+
+/// A step of the evaluation as kernel text, with the values it reads and those it sets.
+struct Section {
+    std::string title;
+    std::string body;
+    std::set<std::string> reads, writes;
+    std::set<std::string> inputs;  ///< planes
+    std::vector<std::string> outputs;
+    double operations = 0;
+    int stage = 0;
+};
+
+/// What emitters share while a plan grows.
+struct Emitter {
+    const Scene& scene;
+    const Available& available;
+    const PlanOptions& options;
+    Plan plan;
+    std::string helpers;  ///< functions that precede the kernels
+
+    /// Number of a texture in the table; the same use is stored once.
+    std::size_t texture(const TextureUse& use, TexelKind kind);
+    /// Number of the first of several origins.
+    std::size_t origin(const Origin& origin);
+    /// Throws unless every plane is there; `who` starts the message.
+    void need(const std::string& who, const std::vector<std::string>& planes) const;
+    /// Hash of a Cryptomatte name, or of "#" and its 8 hex digits; throws, listing the names, when the file has no
+    /// such.
+    std::uint32_t cryptomatte_hash(const std::string& name, const std::string& who) const;
+    bool has(const std::string& plane) const { return available.planes.contains(plane); }
+};
+
+/// A number as kernel text, with all its digits.
+std::string literal(double value);
+/// `vec3` literal.
+std::string literal(const Vec3& v);
+/// Name of a plane as an identifier.
+std::string identifier(const std::string& plane);
+
+/// Emits the layers [first, last) that one section holds: a single layer or consecutive decals.
+Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
+/// How many layers from `first` on go into one section.
+std::size_t layers_together(const std::vector<Layer>& layers, std::size_t first);
+/// Kernel text that sets `m`, in [0,1], and the planes it reads.
+std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
+/// Kernel text that declares the texture coordinates `c` of a mapping.
+std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, const std::string& who, Section& section);
+/// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` the stage needs.
+Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted);
+/// Kernel text that sets dp_dx and dp_dy of p and n.
+std::string derivative_text(const Emitter& emitter);
+/// Kernel text that turns n towards the viewer; `away` where it had to.
+std::string face_viewer_text(const Emitter& emitter);
+/// Ends a stage: projects, resolves, and sets up the next stage if `wanted` names what that needs.
+Section emit_resolve(Emitter& emitter, bool surface, bool volume, bool more, const std::set<std::string>& wanted);
+Section emit_lighting(Emitter& emitter);
+/// Stores what the scene wants written.
+Section emit_output(Emitter& emitter, bool bumped);
+
+}  // namespace wrinkle

@@ -1,0 +1,131 @@
+#include "run/frame_constants.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/vec.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+using scene::cross, scene::dot, scene::normalize, scene::subtract;
+
+static_assert(sizeof(wr_frame) == 48 * sizeof(double) && sizeof(wr_decal) == 25 * sizeof(double) &&
+                  sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
+              "layout.h: members other than WR_SCALAR, or padding");
+
+void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }
+
+Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+
+/// Screen (x right, y down, pixels; depth as NDC z) to NDC.
+Mat4 ndc_from_screen(Size size) {
+    Mat4 m{};
+    m[0] = {2.0 / size.width, 0, 0, -1};
+    m[1] = {0, -2.0 / size.height, 0, 1};
+    m[2][2] = m[3][3] = 1;
+    return m;
+}
+
+wr_frame fill_frame(const Camera& camera, Size size, const Vec3& eye, const Mat4& to_world) {
+    wr_frame frame{};
+    frame.width = size.width;
+    frame.height = size.height;
+    for (std::size_t k = 0; k < 3; ++k) {
+        frame.eye_high[k] = static_cast<float>(eye[k]);
+        frame.eye_low[k] = eye[k] - frame.eye_high[k];
+        frame.forward[k] = -to_world[k][2];
+    }
+    put(frame.forward, normalize({frame.forward[0], frame.forward[1], frame.forward[2]}));
+    if (const auto rays = pinhole_rays(camera, size)) {
+        put(frame.d0, rays->d0);
+        put(frame.dx, rays->dx);
+        put(frame.dy, rays->dy);
+        put(frame.dx_cross_d0, cross(rays->dx, rays->d0));
+        put(frame.dx_cross_dy, cross(rays->dx, rays->dy));
+        put(frame.dy_cross_d0, cross(rays->dy, rays->d0));
+        put(frame.dy_cross_dx, cross(rays->dy, rays->dx));
+        return frame;
+    }
+    const Mat4 inverse_vps = multiply(inverse(multiply(camera.proj, camera.view)), ndc_from_screen(size));
+    double(*const columns[])[3] = {&frame.c0, &frame.c1, &frame.c2, &frame.c3};
+    for (std::size_t i = 0; i < 4; ++i) {
+        frame.w[i] = inverse_vps[3][i];
+        for (std::size_t k = 0; k < 3; ++k) (*columns[i])[k] = inverse_vps[k][i] - eye[k] * frame.w[i];
+    }
+    // A parallel projection's pixel (x, y) at view depth 0: the column sum without its part along the view direction.
+    if (frame.w[0] == 0 && frame.w[1] == 0 && frame.w[2] == 0) {
+        const Vec3 forward{frame.forward[0], frame.forward[1], frame.forward[2]};
+        const auto flat = [&](const double(&c)[3]) {
+            const Vec3 v = scaled({c[0], c[1], c[2]}, 1 / frame.w[3]);
+            return subtract(v, scaled(forward, dot(v, forward)));
+        };
+        put(frame.d0, flat(frame.c3));
+        put(frame.dx, flat(frame.c0));
+        put(frame.dy, flat(frame.c1));
+    }
+    return frame;
+}
+
+wr_decal fill_decal(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye) {
+    const Vec3 x = normalize(decal.axis_x);
+    const Vec3 y = normalize(subtract(decal.axis_y, scaled(x, dot(x, decal.axis_y))));
+    const Vec3 z = cross(x, y);
+    wr_decal out{};
+    put(out.center, subtract(decal.center, eye));
+    put(out.to_box_x, scaled(x, 1 / decal.half_size[0]));
+    put(out.to_box_y, scaled(y, 1 / decal.half_size[1]));
+    put(out.to_box_z, scaled(z, 1 / decal.half_size[2]));
+    const bool height = decal.texture.content == Content::height;  // normals hold slopes, which have no unit
+    put(out.gradient_s, scaled(x, height ? scale / (2 * decal.half_size[0]) : scale));
+    put(out.gradient_t, scaled(y, height ? scale / (2 * decal.half_size[1]) : scale));
+    put(out.axis_z, z);
+    out.falloff = decal.falloff > 0 ? 1 / decal.falloff : 0;
+    const double width = decal.angle_fade[1] - decal.angle_fade[0];
+    out.fade_zero = decal.angle_fade[0];
+    out.fade_slope = 1 / std::max(width, 1e-6);  // equal angles: as good as a step
+    out.texture = static_cast<double>(texture);
+    return out;
+}
+
+wr_light fill_light(const Light& light, const Vec3& eye) {
+    wr_light out{};
+    out.kind = static_cast<double>(light.kind);
+    put(out.color, scaled(light.color, light.intensity));
+    put(out.position, subtract(light.position, eye));
+    put(out.to_light, scaled(normalize(light.direction), -1));
+    out.cos_outer = std::cos(light.outer_angle);
+    out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
+    return out;
+}
+
+}  // namespace
+
+FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size) {
+    const Mat4 to_world = inverse(camera.view);
+    const Vec3 eye{to_world[0][3], to_world[1][3], to_world[2][3]};
+    FrameConstants out;
+    out.frame = fill_frame(camera, size, eye, to_world);
+    for (const Origin& origin : plan.origins) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            double value = dot(origin.axes[k], eye) + origin.offset[k];
+            if (origin.period > 0) value -= origin.period * std::floor(value / origin.period);
+            out.origins.push_back(value);
+        }
+        out.origins.push_back(0);
+    }
+    for (std::size_t i = 0; i < plan.decals.size(); ++i)
+        out.decals.push_back(fill_decal(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));
+    for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
+    put(out.lighting.ambient, lighting.ambient);
+    put(out.lighting.albedo, lighting.albedo);
+    out.lighting.roughness = lighting.roughness;
+    out.lighting.f0 = lighting.f0;
+    out.lighting.max_ratio = lighting.max_ratio;
+    out.lighting.lights = static_cast<double>(lighting.lights.size());
+    return out;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "run/pass_impl.h"
+#include "run/plane_buffers.h"
+#include "wrinkle/error.h"
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+namespace {
+
+/// Pixels of a band when a pass runs from host memory: bounds what is staged, large enough to keep every core busy.
+constexpr std::size_t kBandPixels = std::size_t{1} << 20;
+
+template <class Span>
+void check(const std::map<std::string, Span>& planes, const std::vector<std::string>& names, std::size_t pixels,
+           const char* what) {
+    for (const std::string& name : names) {
+        const auto found = planes.find(name);
+        if (found == planes.end()) throw Error(fmt::format("no {} plane \"{}\"", what, name));
+        if (found->second.size() < pixels)
+            throw Error(fmt::format("{} plane \"{}\" holds {} numbers; the frame has {} pixels", what, name,
+                                    found->second.size(), pixels));
+    }
+}
+
+template <class T>
+void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::string, std::span<T>>& out) {
+    const std::size_t width = impl.size.width, height = impl.size.height;
+    check(in, impl.plan.inputs, width * height, "input");
+    check(out, impl.plan.outputs, width * height, "output");
+    if (sizeof(T) != impl.bytes_per_output())
+        throw Error("outputs are double if and only if the pass is built with fp64");
+
+    const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width, 1, height);
+    const std::size_t halo = impl.plan.neighbours ? 1 : 0;
+    PlaneBuffers inputs(impl.device, impl.plan.inputs, width * (rows + 2 * halo), sizeof(float));
+    PlaneBuffers outputs(impl.device, impl.plan.outputs, width * rows, sizeof(T));
+    for (std::size_t first = 0; first < height; first += rows) {
+        const std::size_t count = std::min(rows, height - first);
+        const std::size_t before = std::min(halo, first), after = std::min(halo, height - first - count);
+        for (const std::string& name : impl.plan.inputs)
+            std::memcpy(inputs.map<float>(name, CL_MAP_WRITE), in.at(name).data() + (first - before) * width,
+                        (before + count + after) * width * sizeof(float));
+        inputs.unmap();
+        impl.enqueue(inputs.planes(), outputs.planes(),
+                     {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                      static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(after)},
+                     {});
+        for (const std::string& name : impl.plan.outputs)
+            std::memcpy(out.at(name).data() + first * width, outputs.map<T>(name, CL_MAP_READ),
+                        count * width * sizeof(T));
+        outputs.unmap();
+    }
+    impl.save();
+}
+
+/// Turns what OpenCL throws into an Error that says what was being done.
+template <class Work>
+auto guarded(const char* what, Work work) {
+    try {
+        return work();
+    } catch (const cl::Error& error) {
+        throw Error(fmt::format("{}: OpenCL reports {} ({})", what, error.what(), error.err()));
+    }
+}
+
+Pass make_pass(const char* what, const Device& device, const Scene& scene, const Frame& frame,
+               const PassOptions& options, const PlanOptions& plan_options) {
+    return guarded(what,
+                   [&] { return Pass(std::make_unique<Pass::Impl>(device, scene, frame, options, plan_options)); });
+}
+
+}  // namespace
+
+Pass::Pass(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Pass::Pass(Pass&&) noexcept = default;
+Pass& Pass::operator=(Pass&&) noexcept = default;
+Pass::~Pass() = default;
+
+const std::vector<std::string>& Pass::inputs() const { return impl_->plan.inputs; }
+const std::vector<std::string>& Pass::outputs() const { return impl_->plan.outputs; }
+bool Pass::needs_neighbours() const { return impl_->plan.neighbours; }
+
+void Pass::set_camera(const Camera& camera) {
+    guarded("set the camera", [&] { impl_->set_camera(camera); });
+}
+
+void Pass::run(const HostPlanes& in, const HostOutputs& out) {
+    guarded("run a pass", [&] { run_bands<float>(*impl_, in, out); });
+}
+
+void Pass::run(const HostPlanes& in, const HostDoubles& out) {
+    guarded("run a pass", [&] { run_bands<double>(*impl_, in, out); });
+}
+
+cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const std::vector<cl::Event>& wait) {
+    return enqueue(in, out, {.first = 0, .count = impl_->size.height}, wait);
+}
+
+cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
+                        const std::vector<cl::Event>& wait) {
+    if (rows.first + rows.count > impl_->size.height || rows.count == 0)
+        throw Error(fmt::format("rows {} to {} are not within the frame's {}", rows.first, rows.first + rows.count,
+                                impl_->size.height));
+    return guarded("enqueue a pass", [&] { return impl_->enqueue(in, out, rows, wait); });
+}
+
+Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options) {
+    return make_pass("evaluate", device, scene, frame, options, {.split = options.split});
+}
+
+Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
+                       const PassOptions& options) {
+    Scene scene;
+    scene.layers.assign(decals.begin(), decals.end());
+    for (const Layer& layer : scene.layers)
+        if (!std::holds_alternative<DecalLayer>(layer.bump))
+            throw Error(fmt::format("layer \"{}\" is no decal", layer.name));
+    return make_pass("accumulate decals", device, scene, frame, options,
+                     {.split = options.split,
+                      .normal = false,
+                      .write_normal = false,
+                      .volume_gradient = true,
+                      .view_footprint = true});
+}
+
+Pass screen_derivatives(const Device& device, const Frame& frame, const PassOptions& options) {
+    Scene scene;
+    scene.output.dp_dx = scene.output.dp_dy = true;
+    return make_pass("screen derivatives", device, scene, frame, options,
+                     {.split = options.split, .write_normal = false});
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,138 @@
+#include "run/pass_impl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "run/frame_constants.h"
+#include "run/texture_heap.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Work-items a group: fixed, since PoCL compiles every local size anew, and large enough for a GPU's warps.
+constexpr std::size_t kGroup = 64;
+
+/// A read-only buffer holding `count` numbers, narrowed to float unless the program computes in double.
+cl::Buffer numbers(const Device& device, const double* values, std::size_t count, bool fp64) {
+    const std::size_t size = std::max<std::size_t>(count, 1);
+    std::vector<float> narrow(size);
+    std::vector<double> wide(size);
+    for (std::size_t i = 0; i < count; ++i) narrow[i] = static_cast<float>(wide[i] = values[i]);
+    void* data = fp64 ? static_cast<void*>(wide.data()) : narrow.data();
+    return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, size * (fp64 ? sizeof(double) : sizeof(float)),
+            data};
+}
+
+template <class Struct>
+cl::Buffer structs(const Device& device, const std::vector<Struct>& values, bool fp64) {
+    constexpr std::size_t members = sizeof(Struct) / sizeof(double);
+    const std::vector<Struct> at_least_one(1);
+    const auto& list = values.empty() ? at_least_one : values;
+    return numbers(device, reinterpret_cast<const double*>(list.data()), list.size() * members, fp64);
+}
+
+template <class T>
+cl::Buffer table(const Device& device, std::vector<T> values) {
+    if (values.empty()) values.resize(1);
+    return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data()};
+}
+
+const cl::Buffer& plane(const DevicePlanes& planes, const std::string& name) {
+    const auto found = planes.find(name);
+    if (found == planes.end()) throw Error(fmt::format("no buffer for the plane \"{}\"", name));
+    return found->second;
+}
+
+}  // namespace
+
+Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options) {
+    if (frame.size.width == 0 || frame.size.height == 0) throw Error("the frame has no pixels");
+    const Available available{frame.planes, camera_kind(frame.camera, frame.size), frame.ray_depth, frame.cryptomatte};
+    return make_plan(scene, available, options);
+}
+
+Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const PassOptions& wanted,
+                 const PlanOptions& plan_options)
+    : device(on),
+      lighting(scene.lighting),
+      size(shape.size),
+      plan(plan_for(scene, shape, plan_options)),
+      options(wanted) {
+    if (options.lanes == 0) options.lanes = options.fp64 ? std::min(device.info.lanes, 8) : device.info.lanes;
+    if (options.fp64 && !device.info.fp64)
+        throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
+    const auto textures_start = Clock::now();
+    TextureHeap heap = load_textures(plan.textures);
+    texels = table(device, std::move(heap.texels));
+    textures = table(device, std::move(heap.table));
+    texture_seconds = seconds_since(textures_start);
+    set_camera(shape.camera);
+
+    const auto build_start = Clock::now();
+    built = build_program(device, plan.source, {options.lanes, options.fp64});
+    for (const PlannedKernel& planned : plan.kernels) {
+        kernels.emplace_back(built.program, planned.name.c_str());
+        for (const std::string& name : planned.scratch)
+            if (std::ranges::find(scratch_names, name) == scratch_names.end()) scratch_names.push_back(name);
+    }
+    build_seconds = seconds_since(build_start);
+    const std::size_t pixels = padded(std::size_t{size.width} * size.height);
+    for (std::size_t i = 0; i < scratch_names.size(); ++i)
+        scratch.emplace_back(device.context, CL_MEM_READ_WRITE, pixels * bytes_per_output());
+}
+
+void Pass::Impl::set_camera(const Camera& camera) {
+    const FrameConstants constants = frame_constants(plan, lighting, camera, size);
+    const bool wide = options.fp64;
+    frame = structs(device, std::vector{constants.frame}, wide);
+    origins = numbers(device, constants.origins.data(), constants.origins.size(), wide);
+    decals = structs(device, constants.decals, wide);
+    light_setup = structs(device, std::vector{constants.lighting}, wide);
+    lights = structs(device, constants.lights, wide);
+}
+
+cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
+                              const std::vector<cl::Event>& wait) {
+    const std::size_t pixels = std::size_t{rows.count} * size.width;
+    const std::size_t items =
+        (pixels + static_cast<std::size_t>(options.lanes) - 1) / static_cast<std::size_t>(options.lanes);
+    const std::size_t global = (items + kGroup - 1) / kGroup * kGroup;
+    std::vector<cl::Event> after = wait;
+    for (std::size_t k = 0; k < kernels.size(); ++k) {
+        cl::Kernel& kernel = kernels[k];
+        cl_uint i = 0;
+        for (const cl::Buffer* buffer : {&frame, &origins, &texels, &textures, &decals, &light_setup, &lights})
+            kernel.setArg(i++, *buffer);
+        for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name));
+        for (const std::string& name : plan.kernels[k].scratch)
+            kernel.setArg(
+                i++, scratch[static_cast<std::size_t>(std::ranges::find(scratch_names, name) - scratch_names.begin())]);
+        for (const std::string& name : plan.kernels[k].outputs) kernel.setArg(i++, plane(out, name));
+        kernel.setArg(i++, static_cast<cl_uint>(rows.before * size.width));
+        kernel.setArg(i++, static_cast<cl_uint>((rows.before + rows.count + rows.after) * size.width));
+        kernel.setArg(i++, static_cast<cl_uint>(rows.first));
+        kernel.setArg(i++, static_cast<cl_uint>(size.width));
+        kernel.setArg(i++, static_cast<cl_uint>(pixels));
+        cl::Event done;
+        device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(kGroup),
+                                          after.empty() ? nullptr : &after, &done);
+        after = {done};
+    }
+    return after.front();
+}
+
+void Pass::Impl::save() {
+    if (saved) return;
+    saved = true;
+    save_program(built);
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+
+#include "device/program.h"
+#include "plan/plan.h"
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+/// A built plan and what its kernels read besides planes.
+struct Pass::Impl {
+    Device device;
+    Lighting lighting;
+    Size size;
+    Plan plan;
+    PassOptions options;
+    BuiltProgram built;
+    std::vector<cl::Kernel> kernels;
+    cl::Buffer texels, textures, frame, origins, decals, light_setup, lights;
+    std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
+    std::vector<std::string> scratch_names;
+    double texture_seconds = 0, build_seconds = 0;
+    bool saved = false;
+
+    Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
+         const PlanOptions& plan_options);
+
+    void set_camera(const Camera& camera);
+    cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
+                      const std::vector<cl::Event>& wait);
+
+    /// Writes the program to the disk cache, once; after the first kernels ran.
+    void save();
+    std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
+};
+
+/// The plan that a scene gets for a frame.
+Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options);
+
+}  // namespace wrinkle

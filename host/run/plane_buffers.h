@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+/// Buffers for named planes in memory that host and device both reach: mapping them costs nothing on a CPU device and
+/// is the fast way to copy on a GPU.
+class PlaneBuffers {
+public:
+    PlaneBuffers() = default;
+    PlaneBuffers(const Device& device, const std::vector<std::string>& names, std::size_t pixels,
+                 std::size_t bytes_each)
+        : queue_(device.queue), bytes_(padded(pixels) * bytes_each) {
+        for (const std::string& name : names)
+            planes_.emplace(name, cl::Buffer(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes_));
+    }
+    PlaneBuffers(const PlaneBuffers&) = delete;
+    PlaneBuffers& operator=(const PlaneBuffers&) = delete;
+    PlaneBuffers(PlaneBuffers&&) = default;
+    PlaneBuffers& operator=(PlaneBuffers&&) = default;
+    ~PlaneBuffers() {
+        try {
+            unmap();
+        } catch (const cl::Error&) {
+            // the queue is gone, and the mapping with it
+        }
+    }
+
+    const DevicePlanes& planes() const { return planes_; }
+
+    /// The plane's memory, once all that was enqueued before is done; until unmap().
+    template <class T>
+    T* map(const std::string& name, cl_map_flags access) {
+        void* memory = queue_.enqueueMapBuffer(planes_.at(name), CL_TRUE, access, 0, bytes_);
+        mapped_[name] = memory;
+        return static_cast<T*>(memory);
+    }
+
+    void unmap() {
+        for (const auto& [name, memory] : mapped_) queue_.enqueueUnmapMemObject(planes_.at(name), memory);
+        mapped_.clear();
+    }
+
+private:
+    cl::CommandQueue queue_;
+    std::size_t bytes_ = 0;
+    DevicePlanes planes_;
+    std::map<std::string, void*> mapped_;
+};
+
+}  // namespace wrinkle

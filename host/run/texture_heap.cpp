@@ -1,0 +1,109 @@
+#include "run/texture_heap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wrinkle/error.h"
+
+#define WR_SCALAR double
+#include "layout.h"
+
+namespace wrinkle {
+
+namespace {
+
+int wrapped(int i, int size, Wrap wrap) {
+    return wrap == Wrap::clamp ? std::clamp(i, 0, size - 1) : ((i % size) + size) % size;
+}
+
+/// The next coarser level: means of 2x2 texels.
+Image half(const Image& fine) {
+    Image coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), fine.channels, {}};
+    for (int y = 0; y < coarse.height; ++y)
+        for (int x = 0; x < coarse.width; ++x)
+            for (int c = 0; c < coarse.channels; ++c) {
+                const int x1 = std::min(2 * x + 1, fine.width - 1), y1 = std::min(2 * y + 1, fine.height - 1);
+                coarse.texels.push_back(0.25f * (fine.at(2 * x, 2 * y, c) + fine.at(x1, 2 * y, c) +
+                                                 fine.at(2 * x, y1, c) + fine.at(x1, y1, c)));
+            }
+    return coarse;
+}
+
+/// Slopes per unit of texture coordinate of a level of heights: the derivative matrix D against the smoothing matrix B
+/// of [Mik20 eq. 20, 21], at texel centres.
+Image slopes_of_heights(const Image& h, Wrap wrap) {
+    Image slopes{h.width, h.height, 2, {}};
+    slopes.texels.reserve(h.texels.size() * 2);
+    for (int y = 0; y < h.height; ++y) {
+        const int down = wrapped(y - 1, h.height, wrap), up = wrapped(y + 1, h.height, wrap);
+        for (int x = 0; x < h.width; ++x) {
+            const int left = wrapped(x - 1, h.width, wrap), right = wrapped(x + 1, h.width, wrap);
+            const double s = (h.at(right, down, 0) - h.at(left, down, 0)) +
+                             2.0 * (h.at(right, y, 0) - h.at(left, y, 0)) + (h.at(right, up, 0) - h.at(left, up, 0));
+            const double t = (h.at(left, up, 0) - h.at(left, down, 0)) + 2.0 * (h.at(x, up, 0) - h.at(x, down, 0)) +
+                             (h.at(right, up, 0) - h.at(right, down, 0));
+            slopes.texels.push_back(static_cast<float>(s / 8 * h.width));
+            slopes.texels.push_back(static_cast<float>(t / 8 * h.height));
+        }
+    }
+    return slopes;
+}
+
+/// Slopes of tangent-space normals [Mik20 listing 2]; m = 0 is flat.
+Image slopes_of_normals(const Image& image, bool y_down) {
+    Image slopes{image.width, image.height, 2, {}};
+    for (std::size_t i = 0; i + 3 <= image.texels.size(); i += 3) {
+        const double x = 2.0 * image.texels[i] - 1, y = (y_down ? -1 : 1) * (2.0 * image.texels[i + 1] - 1);
+        const double z = std::abs(2.0 * image.texels[i + 2] - 1);
+        const double size = std::max(z, std::max(std::abs(x), std::abs(y)) / 128);
+        slopes.texels.push_back(size > 0 ? static_cast<float>(-x / size) : 0.0f);
+        slopes.texels.push_back(size > 0 ? static_cast<float>(-y / size) : 0.0f);
+    }
+    return slopes;
+}
+
+/// Appends a level with its border of one texel.
+void append(TextureHeap& heap, const Image& level, Wrap wrap) {
+    for (int y = -1; y <= level.height; ++y)
+        for (int x = -1; x <= level.width; ++x)
+            for (int c = 0; c < level.channels; ++c)
+                heap.texels.push_back(level.at(wrapped(x, level.width, wrap), wrapped(y, level.height, wrap), c));
+}
+
+}  // namespace
+
+void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
+    const bool slopes = planned.kind == TexelKind::slope, normals = slopes && planned.use.content == Content::normal;
+    Image level = normals ? slopes_of_normals(image, planned.use.y_down) : image;
+    const std::size_t words = heap.table.size();
+    heap.table.resize(words + WR_TEXTURE_WORDS);
+    heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
+    heap.table[words + WR_TEXTURE_HEIGHT] = static_cast<std::uint32_t>(level.height);
+    std::uint32_t count = 0;
+    for (; count < WR_MAX_LEVELS; ++count) {
+        heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
+        append(heap, slopes && !normals ? slopes_of_heights(level, planned.use.wrap) : level, planned.use.wrap);
+        if (level.width == 1 && level.height == 1) {
+            ++count;
+            break;
+        }
+        level = half(level);
+    }
+    heap.table[words + WR_TEXTURE_LEVELS] = count;
+    if (heap.texels.size() > (std::size_t{1} << 31) - 1)
+        throw Error(fmt::format("{}: the textures of this scene exceed 8 GiB together", planned.use.file.string()));
+}
+
+TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
+    TextureHeap heap;
+    for (const PlannedTexture& texture : planned) {
+        const bool normals = texture.kind == TexelKind::slope && texture.use.content == Content::normal;
+        add_texture(heap, load_texture(texture.use.file, normals ? ImageUse::normal : ImageUse::scalar), texture);
+    }
+    heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
+    return heap;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/texture_file.h"
+#include "plan/plan.h"
+
+namespace wrinkle {
+
+/// Mip pyramids of every texture of a plan in one buffer, and the table that kernels find them with (layout.h).
+struct TextureHeap {
+    std::vector<float> texels;
+    std::vector<std::uint32_t> table;
+};
+
+/// Adds one image as the plan's texels: heights and masks as they are; heights for the smooth upscale as slopes by the
+/// Sobel operator per level [Mik20 eq. 20, 21]; tangent normals as slopes per texel [listing 2], mip-mapped as slopes.
+void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned);
+
+/// Loads all textures of a plan. Throws Error for files that cannot be used.
+TextureHeap load_textures(const std::vector<PlannedTexture>& planned);
+
+}  // namespace wrinkle

@@ -1,0 +1,55 @@
+#pragma once
+
+#ifndef CL_HPP_TARGET_OPENCL_VERSION
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#endif
+#ifndef CL_HPP_MINIMUM_OPENCL_VERSION
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#endif
+#ifndef CL_HPP_ENABLE_EXCEPTIONS
+#define CL_HPP_ENABLE_EXCEPTIONS
+#endif
+#include <CL/opencl.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wrinkle {
+
+/// What `wrinkle devices` lists.
+struct DeviceInfo {
+    std::string platform, name, driver, version;
+    std::string type;  ///< "cpu", "gpu", "accelerator"
+    unsigned compute_units = 0;
+    std::uint64_t memory = 0;  ///< bytes
+    int lanes = 1;             ///< pixels a work-item will evaluate
+    bool fp64 = false;
+};
+
+/// Every OpenCL device of this machine, in the order of the ICD loader. Throws Error, naming the package to install,
+/// when there is no platform at all.
+std::vector<DeviceInfo> list_devices();
+
+/// An OpenCL device to work on. A value: copies share the context and the queue.
+struct Device {
+    cl::Device device;
+    cl::Context context;
+    cl::CommandQueue queue;
+    DeviceInfo info;
+
+    /// The device whose number in list_devices(), type or part of a name is `wanted`; the first CPU when empty, else
+    /// the first device. Throws Error listing the devices when nothing matches.
+    static Device open(const std::string& wanted = {});
+
+    /// Works in the caller's context and on the caller's queue.
+    static Device adopt(const cl::Context& context, const cl::CommandQueue& queue);
+
+    /// Memory of the device is memory of the host: nothing need be copied.
+    bool shares_memory() const;
+};
+
+/// Planes given to kernels hold this many floats for `pixels` pixels: whole lane groups, so that the last work-item
+/// needs no guard.
+constexpr std::size_t padded(std::size_t pixels) { return (pixels + 63) / 64 * 64; }
+
+}  // namespace wrinkle

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wrinkle/device.h"
+#include "wrinkle/gbuffer.h"
+#include "wrinkle/scene.h"
+
+/// The three passes, callable with host memory or enqueued on the caller's own queue with the caller's buffers.
+///
+///     auto device = wrinkle::Device::open();
+///     auto pass = wrinkle::evaluate(device, scene, {size, camera, {"depth", "normal.x", "normal.y", "normal.z"}});
+///     pass.run({{"depth", depth}, {"normal.x", nx}, ...}, {{"normal.x", out_x}, ...});
+namespace wrinkle {
+
+/// The frame that a pass is made for.
+struct Frame {
+    Size size;
+    Camera camera;
+    std::set<std::string> planes;                      ///< what the caller can give; names as in wrinkle/gbuffer.h
+    bool ray_depth = false;                            ///< "depth" is the distance along the ray, not planar
+    std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of names, for Cryptomatte masks
+};
+
+using HostPlanes = std::map<std::string, std::span<const float>>;
+using HostOutputs = std::map<std::string, std::span<float>>;
+using HostDoubles = std::map<std::string, std::span<double>>;
+/// Each holds at least padded(pixels) floats; what lies beyond `pixels` is overwritten.
+using DevicePlanes = std::map<std::string, cl::Buffer>;
+
+struct PassOptions {
+    int lanes = 0;       ///< pixels a work-item; 0: the device's choice
+    bool fp64 = false;   ///< evaluate in double, as a reference; outputs are double
+    bool split = false;  ///< one kernel a layer through memory instead of one fused kernel, to compare
+};
+
+/// Rows of the frame held by device planes: rows [first, first + count), preceded by `before` rows that only serve as
+/// neighbours, followed by `after` more.
+struct Rows {
+    std::uint32_t first = 0, count = 0, before = 0, after = 0;
+};
+
+/// A pass, built: planned, compiled or taken from the cache, its textures on the device. Movable, not copyable.
+class Pass {
+public:
+    struct Impl;
+    explicit Pass(std::unique_ptr<Impl> impl);
+    Pass(Pass&&) noexcept;
+    Pass& operator=(Pass&&) noexcept;
+    ~Pass();
+
+    const std::vector<std::string>& inputs() const;   ///< planes that it reads
+    const std::vector<std::string>& outputs() const;  ///< planes that it writes
+    bool needs_neighbours() const;  ///< a band of rows needs one more row on each side, where the frame has one
+
+    /// The same pass for another frame's camera, of the same kind.
+    void set_camera(const Camera& camera);
+
+    /// Whole frame from and to host memory, in bands of bounded size; blocks. Every plane holds size.width x
+    /// size.height numbers. Throws Error when a plane is missing or too short.
+    void run(const HostPlanes& in, const HostOutputs& out);
+    void run(const HostPlanes& in, const HostDoubles& out);  ///< for a pass built with fp64
+
+    /// Enqueues the whole frame on the device's queue; `wait` first. The event is complete when the outputs are.
+    cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const std::vector<cl::Event>& wait = {});
+    /// Enqueues rows of the frame.
+    cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
+                      const std::vector<cl::Event>& wait = {});
+
+    Impl& impl() { return *impl_; }
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The fused stack: every layer of the scene, its resolves, its lighting, what it wants written.
+///   outputs: normal.x .y .z (world, unit) and, as scene.output and scene.lighting ask, surface_gradient.*, dp_dx.*,
+///   dp_dy.* (metres per pixel right, down), marked (see Marked), lit.r .g .b (linear)
+/// Throws Error naming the layer when planes, textures or names are missing.
+Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options = {});
+
+/// Volume gradients of decals, accumulated with no normal at hand; [Mik20 4.5] projects them later, onto any normal:
+/// g = volume_gradient - n (n . volume_gradient), then normalize(n - g). The angle fade needs a normal and is left out;
+/// footprints are those of a surface that faces the viewer. The sum depends on the order only by rounding.
+///   inputs: depth or position.*    outputs: volume_gradient.x .y .z (world, metres per metre)
+Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
+                       const PassOptions& options = {});
+
+/// Screen derivatives of the surface position, analytically, without neighbours [Mik20 3.7, listing 10].
+///   inputs: normal.*, depth or position.*    outputs: dp_dx.*, dp_dy.* (world, metres per pixel right and down)
+Pass screen_derivatives(const Device& device, const Frame& frame, const PassOptions& options = {});
+
+}  // namespace wrinkle

@@ -1,0 +1,53 @@
+// Structs that the host fills and kernels read. Included by both. Every member is a WR_SCALAR: the host fills double
+// and narrows number by number for a float program, so one declaration serves every precision.
+#ifndef WR_LAYOUT_H
+#define WR_LAYOUT_H
+
+// What changes from frame to frame. Positions are relative to the eye.
+typedef struct {
+    WR_SCALAR width, height;
+    WR_SCALAR eye_high[3], eye_low[3];  // world position of the eye as an unevaluated sum of two floats
+    // Pinhole: ray through pixel (x, y): d = d0 + x dx + y dy, view depth 1
+    WR_SCALAR d0[3], dx[3], dy[3];
+    WR_SCALAR dx_cross_d0[3], dx_cross_dy[3];  // dx x d = dx_cross_d0 + y dx_cross_dy, because dx x dx = 0
+    WR_SCALAR dy_cross_d0[3], dy_cross_dx[3];  // dy x d = dy_cross_d0 + x dy_cross_dx
+    // Any projection: columns of the inverse view-projection-screen matrix, eye-relative, and their w
+    WR_SCALAR c0[3], c1[3], c2[3], c3[3], w[4];
+    WR_SCALAR forward[3];  // unit view direction; parallel projections
+} wr_frame;
+
+// A decal's box. q = to_box (p - center) is in [-1,1]^3 inside.
+typedef struct {
+    WR_SCALAR center[3];
+    WR_SCALAR to_box_x[3], to_box_y[3], to_box_z[3];  // unit axis / half size
+    WR_SCALAR gradient_s[3], gradient_t[3];           // volume gradient for a slope of 1 along s, t; holds scale and sign
+    WR_SCALAR axis_z[3];                              // unit, towards the projector
+    WR_SCALAR falloff;                                // 1 / share of the half size that fades; 0: a hard edge
+    WR_SCALAR fade_zero, fade_slope;                  // angle fade = clamp((n . axis_z - fade_zero) fade_slope, 0, 1)
+    WR_SCALAR texture;                                // number of its texture
+} wr_decal;
+
+// A light. Kinds: 0 sun, 1 point, 2 spot.
+typedef struct {
+    WR_SCALAR kind;
+    WR_SCALAR color[3];      // times intensity
+    WR_SCALAR position[3];   // eye-relative
+    WR_SCALAR to_light[3];   // unit, against the way the light travels
+    WR_SCALAR cos_inner, cos_outer;
+} wr_light;
+
+// Lighting of a frame.
+typedef struct {
+    WR_SCALAR ambient[3], albedo[3];
+    WR_SCALAR roughness, f0, max_ratio, lights;
+} wr_lighting;
+
+// Texture table: WR_TEXTURE_WORDS 32-bit numbers a texture.
+#define WR_MAX_LEVELS 16
+#define WR_TEXTURE_WIDTH 0
+#define WR_TEXTURE_HEIGHT 1
+#define WR_TEXTURE_LEVELS 2
+#define WR_TEXTURE_OFFSETS 3  // of each level's first float in the texel buffer
+#define WR_TEXTURE_WORDS 19
+
+#endif
