@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace wrinkle::io {
+
+/// A file that appears under its name only when it is complete.
+///
+/// It is written to an unnamed file (O_TMPFILE) in the target's folder, so that not even `kill -9` leaves anything
+/// behind; file systems without such files get ".NAME.PID.partial", removed unless commit() succeeds.
+class AtomicFile {
+public:
+    enum class Temporary { unnamed_if_possible, named };
+
+    /// Throws Error when the folder is missing or not writable, or the target is not a regular file.
+    explicit AtomicFile(std::filesystem::path target, Temporary temporary = Temporary::unnamed_if_possible);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    int descriptor() const { return descriptor_; }
+
+    /// Puts the complete file on disk and in place of the old one. Throws Error; then the old file is still there.
+    void commit();
+
+    /// "cannot write FILE: REASON; the old file is unchanged".
+    std::string failure(const std::string& reason) const;
+
+private:
+    bool open_unnamed(const std::filesystem::path& folder);
+    void open_named();
+    void copy_permissions() const;
+    void link_into_place();
+
+    std::filesystem::path target_, partial_;
+    int descriptor_ = -1;
+    bool named_ = false;  ///< partial_ exists and is ours to remove
+};
+
+}  // namespace wrinkle::io

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <OpenImageIO/filesystem.h>
+
+namespace wrinkle::io {
+
+/// Lets OpenImageIO write to an open file descriptor, and remembers why the first write failed: "No space left on
+/// device" is lost on the way through the image libraries. The descriptor stays the caller's.
+class DescriptorProxy : public OIIO::Filesystem::IOProxy {
+public:
+    explicit DescriptorProxy(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
+
+    const char* proxytype() const override { return "descriptor"; }
+    std::size_t write(const void* data, std::size_t size) override;
+    std::size_t pwrite(const void* data, std::size_t size, std::int64_t offset) override;
+    std::size_t size() const override;
+
+    int failure() const { return failure_; }  ///< errno of the first write that failed, or 0
+
+private:
+    int descriptor_;
+    int failure_ = 0;
+};
+
+}  // namespace wrinkle::io

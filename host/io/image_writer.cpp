@@ -1,0 +1,176 @@
+#include "io/image_writer.h"
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/parallel.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "io/atomic_file.h"
+#include "io/descriptor_proxy.h"
+#include "io/image_open.h"
+#include "io/metadata_data.h"
+#include "io/names.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+namespace {
+
+constexpr std::size_t scratch_floats = 16u << 20;  // 64 MiB of interleaved rows at a time
+constexpr float largest_half = 65504;
+
+/// Attributes that describe how the old file was stored, not what is in it.
+bool describes_storage(std::string_view name) {
+    if (name == "oiio:ColorSpace") return false;
+    if (name.starts_with("oiio:") || name.starts_with("openexr:")) return true;
+    for (const std::string_view own : {"compression", "name", "type", "channels", "multiView", "view"}) {
+        if (name == own) return true;
+    }
+    return false;
+}
+
+bool is_cryptomatte(const std::string& channel) { return io::contains_ignoring_case(channel, "crypto"); }
+
+OIIO::ImageSpec exr_spec(Size size, const std::vector<std::string>& channels, const ImageOptions& options) {
+    OIIO::ImageSpec spec(static_cast<int>(size.width), static_cast<int>(size.height), static_cast<int>(channels.size()),
+                         options.half ? OIIO::TypeHalf : OIIO::TypeFloat);
+    spec.channelnames = channels;
+    if (options.half && std::ranges::any_of(channels, is_cryptomatte)) {
+        for (const auto& channel : channels) {
+            spec.channelformats.push_back(is_cryptomatte(channel) ? OIIO::TypeFloat : OIIO::TypeHalf);
+        }
+    }
+    for (const auto& attribute : options.metadata.data().list) {
+        if (!describes_storage(attribute.name().string())) spec.extra_attribs.add_or_replace(attribute);
+    }
+    spec.attribute("compression", "zip");
+    return spec;
+}
+
+float srgb(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+}  // namespace
+
+struct ImageWriter::Impl {
+    Impl(const std::filesystem::path& path, Size size, std::vector<std::string> channels, ImageOptions given)
+        : size(size), names(std::move(channels)), options(std::move(given)), file(path), proxy(file.descriptor()) {
+        const auto extension = io::lower(path.extension().string());
+        png = extension == ".png";
+        auto spec = png ? OIIO::ImageSpec(static_cast<int>(size.width), static_cast<int>(size.height),
+                                          static_cast<int>(names.size()), OIIO::TypeUInt8)
+                        : exr_spec(size, names, options);
+        if (png && options.png == PngEncoding::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+        for (const auto& name : names) keep_finite.push_back(!png && options.half && !is_cryptomatte(name));
+        exposure = static_cast<float>(std::exp2(options.exposure));
+        output = OIIO::ImageOutput::create(png ? "png" : "openexr", &proxy);
+        if (!output || !output->set_ioproxy(&proxy)) {
+            throw Error(fmt::format("cannot write {}: this OpenImageIO does not write {} files{}", path.string(),
+                                    extension, io::reason(OIIO::geterror())));
+        }
+        if (!output->open(path.string(), spec)) fail();
+    }
+
+    ~Impl() {
+        if (output) output->close();  // the proxy must outlive it; what it still writes goes with the unnamed file
+    }
+
+    [[noreturn]] void fail() {
+        const auto why = output->geterror();
+        const auto text =
+            proxy.failure() != 0 ? std::string(std::strerror(proxy.failure())) : "the image" + io::reason(why);
+        throw Error(file.failure(text));
+    }
+
+    float encode(float value, std::size_t channel) const {
+        if (!png) {
+            return keep_finite[channel] && std::isfinite(value) ? std::clamp(value, -largest_half, largest_half)
+                                                                : value;
+        }
+        if (std::isnan(value)) return 0;
+        if (options.png == PngEncoding::normal) return std::clamp((value + 1) / 2, 0.0f, 1.0f);
+        if (options.png == PngEncoding::linear || channel == 3) return std::clamp(value, 0.0f, 1.0f);
+        return srgb(std::clamp(value * exposure, 0.0f, 1.0f));
+    }
+
+    void interleave(std::span<const float* const> planes, std::size_t first_pixel, std::size_t pixels) {
+        scratch.resize(std::max(scratch.size(), pixels * planes.size()));
+        OIIO::parallel_for_chunked(
+            0, static_cast<std::int64_t>(pixels), 1 << 14, [&](std::int64_t from, std::int64_t to) {
+                for (std::size_t channel = 0; channel < planes.size(); ++channel) {
+                    const float* in = planes[channel] + first_pixel;
+                    float* out = scratch.data() + channel;
+                    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+                        out[i * planes.size()] = encode(in[i], channel);
+                    }
+                }
+            });
+    }
+
+    Size size;
+    std::vector<std::string> names;
+    ImageOptions options;
+    bool png = false;
+    float exposure = 1;
+    std::vector<bool> keep_finite;
+    std::uint32_t next_row = 0;
+    std::vector<float> scratch;
+    io::AtomicFile file;  // after it the proxy, after that the output: destroyed the other way round
+    io::DescriptorProxy proxy;
+    std::unique_ptr<OIIO::ImageOutput> output;
+};
+
+ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, std::vector<std::string> channels,
+                         ImageOptions options) {
+    const auto extension = io::lower(file.extension().string());
+    if (extension != ".exr" && extension != ".png") {
+        throw Error(fmt::format("cannot write {}: \"{}\" is not a format wrinkle writes; use .exr or .png",
+                                file.string(), extension));
+    }
+    if (size.width == 0 || size.height == 0 || channels.empty() || (extension == ".png" && channels.size() > 4)) {
+        throw Error(fmt::format("cannot write {}: {}x{} with {} channels is not a picture", file.string(), size.width,
+                                size.height, channels.size()));
+    }
+    impl_ = std::make_unique<Impl>(file, size, std::move(channels), std::move(options));
+}
+
+ImageWriter::~ImageWriter() = default;
+ImageWriter::ImageWriter(ImageWriter&&) noexcept = default;
+ImageWriter& ImageWriter::operator=(ImageWriter&&) noexcept = default;
+
+void ImageWriter::write_rows(std::uint32_t row_begin, std::uint32_t row_end, std::span<const float* const> planes) {
+    if (row_begin != impl_->next_row || row_end < row_begin || row_end > impl_->size.height ||
+        planes.size() != impl_->names.size()) {
+        throw Error(
+            impl_->file.failure(fmt::format("rows {} to {} of {} channels came where row {} of {} was due", row_begin,
+                                            row_end, planes.size(), impl_->next_row, impl_->names.size())));
+    }
+    const std::size_t row_floats = impl_->size.width * planes.size();
+    constexpr std::uint32_t zip_block = 16;
+    const auto rows = std::max(static_cast<std::uint32_t>(scratch_floats / row_floats) / zip_block, 1u) * zip_block;
+    for (std::uint32_t row = row_begin; row < row_end; row += rows) {
+        const auto end = std::min(row + rows, row_end);
+        impl_->interleave(planes, std::size_t{row - row_begin} * impl_->size.width,
+                          std::size_t{end - row} * impl_->size.width);
+        if (!impl_->output->write_scanlines(static_cast<int>(row), static_cast<int>(end), 0, OIIO::TypeFloat,
+                                            impl_->scratch.data()))
+            impl_->fail();
+        impl_->next_row = end;
+    }
+}
+
+void ImageWriter::finish() {
+    if (impl_->next_row != impl_->size.height) {
+        throw Error(
+            impl_->file.failure(fmt::format("only {} of {} rows were written", impl_->next_row, impl_->size.height)));
+    }
+    const bool closed = impl_->output->close();
+    if (!closed || impl_->proxy.failure() != 0) impl_->fail();
+    impl_->output.reset();
+    impl_->file.commit();
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,40 @@
+#include "io/packed_normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace wrinkle::io {
+namespace {
+
+float median(std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+bool looks_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+    constexpr float rounding = 0.01f;     // half floats, 8-bit sources
+    constexpr float unit_length = 0.03f;  // what filtering takes off the length inside a surface
+    std::vector<float> raw, unpacked;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const float n[3] = {x[i], y[i], z[i]};
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
+        if (!std::isfinite(n[0] + n[1] + n[2])) continue;
+        if (std::ranges::any_of(n, [](float c) { return c < -rounding || c > 1 + rounding; })) return false;
+        raw.push_back(std::abs(std::hypot(n[0], n[1], n[2]) - 1));
+        unpacked.push_back(std::abs(std::hypot(2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1) - 1));
+    }
+    return !raw.empty() && median(unpacked) < unit_length && median(raw) > unit_length;
+}
+
+void unpack_normals(std::span<float> x, std::span<float> y, std::span<float> z) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (x[i] == 0 && y[i] == 0 && z[i] == 0) continue;
+        x[i] = 2 * x[i] - 1, y[i] = 2 * y[i] - 1, z[i] = 2 * z[i] - 1;
+    }
+}
+
+}  // namespace wrinkle::io

@@ -1,0 +1,238 @@
+#include "io/gbuffer_reader.h"
+
+#include <OpenImageIO/deepdata.h>
+
+#include <bit>
+#include <cmath>
+
+#include "tests/io/files.h"
+
+namespace wrinkle {
+namespace {
+
+using namespace test;
+using Names = std::vector<std::string>;
+
+/// The planes' rows, one vector a plane.
+std::vector<std::vector<float>> read(const GBufferReader& reader, std::uint32_t begin, std::uint32_t end,
+                                     const Names& planes) {
+    std::vector<std::vector<float>> values(planes.size());
+    std::vector<float*> out;
+    for (auto& plane : values) {
+        plane.assign(std::size_t{end - begin} * reader.size().width, -1.0f);
+        out.push_back(plane.data());
+    }
+    reader.read_rows(begin, end, planes, out);
+    return values;
+}
+
+int index_of(const std::string& channel) {
+    return static_cast<int>(std::ranges::find(blender_channels, channel) - blender_channels.begin());
+}
+
+TEST(GBufferReader, ReadsBandsOfTheNamedPlanes) {
+    TempFolder folder;
+    write_exr(folder / "a.exr", 37, 53, blender_channels);
+    const GBufferReader reader(folder / "a.exr");
+    EXPECT_EQ(reader.size(), (Size{37, 53}));
+    EXPECT_EQ(reader.parts(), 1);
+    EXPECT_EQ(reader.roles().writer, Writer::blender);
+    for (const auto& [begin, end] : {std::pair{0u, 53u}, {5u, 21u}, {52u, 53u}, {7u, 7u}}) {
+        const auto values = read(reader, begin, end, {"normal.y", "depth", "channel:ViewLayer.UV.A"});
+        for (std::uint32_t y = begin; y < end; ++y) {
+            for (std::uint32_t x = 0; x < 37; ++x) {
+                const auto i = (y - begin) * 37 + x;
+                const int px = static_cast<int>(x), py = static_cast<int>(y);
+                EXPECT_EQ(values[0][i], numbered(index_of("ViewLayer.Normal.Y"), px, py));
+                EXPECT_EQ(values[1][i], numbered(index_of("ViewLayer.Depth.Z"), px, py));
+                EXPECT_EQ(values[2][i], numbered(index_of("ViewLayer.UV.A"), px, py));
+            }
+        }
+    }
+}
+
+TEST(GBufferReader, HalfAndTiledFilesReadTheSame) {
+    TempFolder folder;
+    auto tiled = make_spec(50, 41, {"N.X", "N.Y", "N.Z", "Z"}, OIIO::TypeHalf);
+    tiled.tile_width = tiled.tile_height = 16;
+    write_image(folder / "tiled.exr", {{tiled, [](int c, int x, int y) { return numbered(c, x, y) / 4; }}});
+    const GBufferReader reader(folder / "tiled.exr");
+    const auto values = read(reader, 3, 39, {"normal.z", "depth"});
+    for (int y = 3; y < 39; ++y) {
+        for (int x = 0; x < 50; ++x) {
+            const auto i = static_cast<std::size_t>((y - 3) * 50 + x);
+            EXPECT_NEAR(values[0][i], numbered(2, x, y) / 4, 0.05);
+            EXPECT_NEAR(values[1][i], numbered(3, x, y) / 4, 0.05);
+        }
+    }
+}
+
+TEST(GBufferReader, ChannelsOverSeveralParts) {
+    TempFolder folder;
+    auto first = make_spec(20, 10, {"R", "G", "B"}), second = make_spec(20, 10, {"X", "Y", "Z"}),
+         third = make_spec(20, 10, {"depth.Z"});
+    first.attribute("oiio:subimagename", "rgba");
+    second.attribute("oiio:subimagename", "N");
+    third.attribute("oiio:subimagename", "depth");
+    write_image(folder / "parts.exr",
+                {{first}, {second}, {third, [](int, int x, int y) { return numbered(7, x, y); }}});
+    const GBufferReader reader(folder / "parts.exr");
+    EXPECT_EQ(reader.parts(), 3);
+    EXPECT_EQ(reader.channels(), (Names{"R", "G", "B", "N.X", "N.Y", "N.Z", "depth.Z"}));
+    const auto values = read(reader, 2, 9, {"beauty.g", "normal.z", "depth"});
+    EXPECT_EQ(values[0][20 * 3 + 4], numbered(1, 4, 5));
+    EXPECT_EQ(values[1][20 * 3 + 4], numbered(2, 4, 5));
+    EXPECT_EQ(values[2][20 * 3 + 4], numbered(7, 4, 5));
+}
+
+TEST(GBufferReader, PixelsOutsideTheDataWindowAreBackground) {
+    TempFolder folder;
+    auto spec = make_spec(10, 8, {"N.X", "N.Y", "N.Z"});
+    spec.x = 105, spec.y = 203;  // the frame begins at (100, 200): 5 to the right, 3 down, 3 columns outside
+    spec.full_x = 100, spec.full_y = 200, spec.full_width = 12, spec.full_height = 20;
+    write_image(folder / "crop.exr", {{spec}});
+    const GBufferReader reader(folder / "crop.exr");
+    ASSERT_EQ(reader.size(), (Size{12, 20}));
+    const auto plane = read(reader, 1, 20, {"normal.y"})[0];
+    for (int y = 1; y < 20; ++y) {
+        for (int x = 0; x < 12; ++x) {
+            const bool inside = x >= 5 && y >= 3 && y < 11;
+            EXPECT_EQ(plane[static_cast<std::size_t>((y - 1) * 12 + x)], inside ? numbered(1, x - 5, y - 3) : 0.0f);
+        }
+    }
+}
+
+TEST(GBufferReader, WholeNumberChannelsKeepTheirValue) {
+    TempFolder folder;
+    auto spec = make_spec(4, 4, {"N.X", "N.Y", "N.Z", "object.I"});
+    spec.channelformats = {OIIO::TypeFloat, OIIO::TypeFloat, OIIO::TypeFloat, OIIO::TypeUInt32};
+    // OpenImageIO writes UINT channels as shares of 2^32 - 1.
+    write_image(
+        folder / "id.exr",
+        {{spec, [](int c, int x, int y) { return c < 3 ? numbered(c, x, y) : 0x1p-20f * static_cast<float>(x); }}});
+    const auto values = read(GBufferReader(folder / "id.exr"), 0, 4, {"object", "normal.x"});
+    EXPECT_NEAR(values[0][3], 3 * 4096, 1);
+    EXPECT_EQ(values[1][4 + 3], numbered(0, 3, 1));
+}
+
+TEST(GBufferReader, UnrealPackedNormalsAreUnpacked) {
+    TempFolder folder;
+    const auto packed = [](int c, int x, int y) {
+        const float n[3] = {std::sin(0.1f * static_cast<float>(x)), 0, std::cos(0.1f * static_cast<float>(x))};
+        return y == 0 ? 0.0f : (n[c] + 1) / 2;
+    };
+    const auto names = Names{"FinalImageMovieRenderQueue_WorldNormal.R", "FinalImageMovieRenderQueue_WorldNormal.G",
+                             "FinalImageMovieRenderQueue_WorldNormal.B"};
+    write_exr(folder / "packed.exr", 60, 30, names, packed);
+    const GBufferReader reader(folder / "packed.exr");
+    EXPECT_TRUE(reader.packed_normals());
+    const auto n = read(reader, 0, 2, {"normal.z", "normal.x", "normal.y"});
+    EXPECT_EQ(n[0][20], 0.0f);  // background stays (0, 0, 0)
+    EXPECT_NEAR(n[1][60 + 20], std::sin(2.0f), 1e-6);
+    EXPECT_NEAR(n[0][60 + 20], std::cos(2.0f), 1e-6);
+
+    write_exr(folder / "signed.exr", 60, 30, names,
+              [&](int c, int x, int y) { return y == 0 ? 0.0f : 2 * packed(c, x, y) - 1; });
+    EXPECT_FALSE(GBufferReader(folder / "signed.exr").packed_normals());
+}
+
+TEST(GBufferReader, DepthKindFollowsTheSceneFirst) {
+    TempFolder folder;
+    write_exr(folder / "m.exr", 4, 4, {"dd.T"});
+    EXPECT_EQ(GBufferReader(folder / "m.exr").roles().depth, DepthKind::ray);
+    EXPECT_EQ(GBufferReader(folder / "m.exr", {.file = {}, .roles = {}, .depth = DepthKind::planar}).roles().depth,
+              DepthKind::planar);
+}
+
+TEST(GBufferReader, SaysWhichRoleHasNoChannels) {
+    TempFolder folder;
+    write_exr(folder / "a.exr", 4, 4, {"N.X", "N.Y", "N.Z"});
+    const GBufferReader reader(folder / "a.exr");
+    expect_mentions(error_of([&] {
+                        reader.require(Names{"normal.x", "uv.u"});
+                    }),
+                    {"a.exr", "role \"uv\"", "channels found: N.XYZ", "roles = { uv"});
+    expect_mentions(error_of([&] { reader.require(Names{"channel:N.W"}); }), {"no channel \"N.W\"", "nearest: \"N."});
+    expect_mentions(error_of([&] {
+                        GBufferReader(folder / "a.exr", {.file = {}, .roles = {{"uv", "st"}}});
+                    }),
+                    {"a.exr: roles: uv = \"st\""});
+}
+
+TEST(GBufferReader, RefusesFilesThatAreNoFrames) {
+    TempFolder folder;
+    expect_mentions(error_of([&] { GBufferReader(folder / "none.exr"); }), {"none.exr: no such file"});
+    expect_mentions(error_of([&] { GBufferReader(folder / "."); }), {"a folder"});
+    write_text(folder / "empty.exr", "");
+    expect_mentions(error_of([&] { GBufferReader(folder / "empty.exr"); }), {"empty.exr: the file is empty"});
+    write_text(folder / "text.exr", "this is no picture at all, however long it goes on");
+    expect_mentions(error_of([&] { GBufferReader(folder / "text.exr"); }), {"text.exr: not an image"});
+
+    auto deep = make_spec(4, 4, {"Z"});
+    deep.deep = true;
+    auto output = OIIO::ImageOutput::create("openexr");
+    ASSERT_TRUE(output->open((folder / "deep.exr").string(), deep));
+    OIIO::DeepData data(deep);
+    ASSERT_TRUE(output->write_deep_scanlines(0, 4, 0, data));
+    ASSERT_TRUE(output->close());
+    expect_mentions(error_of([&] { GBufferReader(folder / "deep.exr"); }), {"deep image"});
+}
+
+TEST(GBufferReader, NamesTheFirstRowOfATruncatedFile) {
+    TempFolder folder;
+    // Noise, so that ZIP cannot shrink the later rows to nothing.
+    write_exr(folder / "cut.exr", 64, 256, {"P.X", "P.Y", "P.Z"}, [](int c, int x, int y) {
+        return std::fmod(static_cast<float>((c + 7 * x + 131 * y) * 7919 % 10007), 97.3f);
+    });
+    std::filesystem::resize_file(folder / "cut.exr", std::filesystem::file_size(folder / "cut.exr") / 2);
+    const GBufferReader reader(folder / "cut.exr");
+    EXPECT_EQ(read(reader, 0, 64, {"position.x"})[0].size(), 64u * 64u);
+    const auto text = error_of([&] { read(reader, 0, 256, {"position.x"}); });
+    expect_mentions(text, {"cut.exr: row 1", "of 256 cannot be read", "truncated"});
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
+TEST(GBufferReader, CryptomatteIdsComeThroughBitByBit) {
+    TempFolder folder;
+    auto spec = make_spec(2, 1, blender_channels);
+    spec.attribute("cryptomatte/542cafa/name", "ViewLayer.CryptoObject");
+    spec.attribute("cryptomatte/542cafa/manifest", R"({"Rock":"f9fa0452","Ground":"24950135"})");
+    write_image(folder / "c.exr",
+                {{spec, [](int c, int, int) { return c == 4 ? std::bit_cast<float>(0xf9fa0452u) : 0.5f; }}});
+    const GBufferReader reader(folder / "c.exr");
+    const auto values = read(reader, 0, 1, {"crypto.id0", "crypto.coverage0"});
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(values[0][1]), reader.cryptomatte().id("Rock"));
+    EXPECT_EQ(values[1][1], 0.5f);
+    EXPECT_EQ(reader.cryptomatte().names(), (Names{"Ground", "Rock"}));
+    expect_mentions(error_of([&] { reader.cryptomatte().id("Rok"); }), {"nearest: \"Rock\"", "Ground"});
+
+    write_exr(folder / "half.exr", 2, 1, blender_channels, numbered, OIIO::TypeHalf);
+    expect_mentions(error_of([&] { read(GBufferReader(folder / "half.exr"), 0, 1, {"crypto.id0"}); }), {"16-bit"});
+}
+
+TEST(Cryptomatte, HashesAsBlenderDoes) {
+    EXPECT_EQ(cryptomatte_hash("Suzanne"), 0xcb432898u);
+    EXPECT_EQ(cryptomatte_hash("Torus"), 0x789a1936u);
+    EXPECT_EQ(cryptomatte_hash("Rock"), 0xf9fa0452u);
+    EXPECT_EQ(cryptomatte_hash("Ground"), 0x24950135u);
+    for (int i = 0; i < 2000; ++i) {
+        EXPECT_TRUE(std::isnormal(std::bit_cast<float>(cryptomatte_hash("object" + std::to_string(i)))));
+    }
+    const CryptomatteManifest none;
+    EXPECT_EQ(none.id("Rock"), 0xf9fa0452u);
+    EXPECT_EQ(none.id("#24950135"), 0x24950135u);
+}
+
+TEST(Cryptomatte, ManifestBesideTheFile) {
+    TempFolder folder;
+    write_text(folder / "names.json", R"({"Rock":"f9fa0452"})");
+    Metadata header;
+    header.set("cryptomatte/1/name", "CryptoObject");
+    header.set("cryptomatte/1/manif_file", "names.json");
+    EXPECT_EQ(CryptomatteManifest(header, "ViewLayer.CryptoObject", folder / "f.exr").names(), Names{"Rock"});
+    header.set("cryptomatte/1/manifest", "{oops");
+    expect_mentions(error_of([&] { CryptomatteManifest(header, "CryptoObject", folder / "f.exr"); }), {"manifest"});
+}
+
+}  // namespace
+}  // namespace wrinkle

@@ -1,0 +1,178 @@
+#include "io/gbuffer_roles.h"
+
+#include "tests/io/files.h"
+
+namespace wrinkle {
+namespace {
+
+using test::blender_channels;
+using test::error_of;
+using test::expect_mentions;
+using Names = std::vector<std::string>;
+
+void expect_channels(const RoleMap& map, const std::map<std::string, std::string>& expected) {
+    for (const auto& [plane, channel] : expected) {
+        const auto found = map.channel_of.find(plane);
+        ASSERT_NE(found, map.channel_of.end()) << plane;
+        EXPECT_EQ(found->second, channel) << plane;
+    }
+}
+
+Names layers(std::initializer_list<std::pair<const char*, const char*>> parts) {
+    Names names;
+    for (const auto& [layer, components] : parts)
+        for (const char* c = components; *c != 0; ++c) names.push_back(std::string(layer) + "." + *c);
+    return names;
+}
+
+TEST(Roles, EveryRoleHasThePlanesOfTheContract) {
+    EXPECT_EQ(gbuffer_roles().size(), 13u);
+    EXPECT_EQ(gbuffer_roles().front().planes, (Names{"position.x", "position.y", "position.z"}));
+}
+
+TEST(Roles, Blender) {
+    const auto map = detect_roles(blender_channels);
+    EXPECT_EQ(map.writer, Writer::blender);
+    EXPECT_EQ(map.depth, DepthKind::planar);
+    expect_channels(map, {{"position.y", "ViewLayer.Position.Y"},
+                          {"normal.z", "ViewLayer.Normal.Z"},
+                          {"depth", "ViewLayer.Depth.Z"},
+                          {"uv.u", "ViewLayer.UV.U"},
+                          {"uv.v", "ViewLayer.UV.V"},
+                          {"object", "ViewLayer.IndexOB.X"},
+                          {"beauty.r", "ViewLayer.Combined.R"},
+                          {"crypto.id0", "ViewLayer.CryptoObject00.r"},
+                          {"crypto.coverage1", "ViewLayer.CryptoObject00.a"},
+                          {"crypto.id2", "ViewLayer.CryptoObject01.r"}});
+    EXPECT_EQ(map.cryptomatte_ranks, 4);
+    EXPECT_EQ(map.cryptomatte_layer, "ViewLayer.CryptoObject");
+    EXPECT_FALSE(map.has_role("albedo"));
+    EXPECT_FALSE(map.has_role("dp_du"));
+}
+
+TEST(Roles, BlenderViewLayersAreNotMixed) {
+    auto names =
+        layers({{"Back.Normal", "XYZ"}, {"Front.Position", "XYZ"}, {"Front.Normal", "XYZ"}, {"Back.UV", "UVA"}});
+    names.push_back("Front.Depth.Z");
+    const auto map = detect_roles(names);
+    expect_channels(map, {{"normal.x", "Front.Normal.X"}, {"depth", "Front.Depth.Z"}});
+    EXPECT_FALSE(map.has_role("uv"));
+}
+
+TEST(Roles, Mitsuba) {
+    auto names = layers({{"pos", "XYZ"},
+                         {"geo_normal", "XYZ"},
+                         {"sh_normal", "XYZ"},
+                         {"dp_du", "XYZ"},
+                         {"dd", "T"},
+                         {"coords", "UV"},
+                         {"duv_dx", "UV"},
+                         {"which", "I"},
+                         {"prim_index", "I"}});
+    names.insert(names.end(), {"R", "G", "B"});
+    const auto map = detect_roles(names);
+    EXPECT_EQ(map.writer, Writer::mitsuba);
+    EXPECT_EQ(map.depth, DepthKind::ray);
+    expect_channels(map, {{"position.x", "pos.X"},
+                          {"normal.x", "sh_normal.X"},
+                          {"depth", "dd.T"},
+                          {"uv.v", "coords.V"},
+                          {"duv_dx.u", "duv_dx.U"},
+                          {"dp_du.z", "dp_du.Z"},
+                          {"object", "which.I"},
+                          {"beauty.g", "G"}});
+}
+
+TEST(Roles, Pbrt) {
+    auto names = layers({{"P", "XYZ"}, {"N", "XYZ"}, {"Ns", "XYZ"}, {"Albedo", "RGB"}});
+    names.insert(names.end(), {"R", "G", "B", "u", "v", "dudx", "dudy", "dvdx", "dvdy", "dzdx", "dzdy"});
+    const auto map = detect_roles(names);
+    EXPECT_EQ(map.writer, Writer::pbrt);
+    expect_channels(map, {{"normal.x", "Ns.X"},
+                          {"position.z", "P.Z"},
+                          {"uv.u", "u"},
+                          {"duv_dx.v", "dvdx"},
+                          {"duv_dy.u", "dudy"},
+                          {"albedo.r", "Albedo.R"}});
+    EXPECT_FALSE(map.has_role("depth"));
+}
+
+TEST(Roles, RenderManKeepsCameraSpaceOut) {
+    const auto map = detect_roles(layers(
+        {{"__Pworld", "rgb"}, {"__Nworld", "rgb"}, {"__Nn", "rgb"}, {"__P", "rgb"}, {"__depth", "r"}, {"__st", "rg"}}));
+    EXPECT_EQ(map.writer, Writer::renderman);
+    expect_channels(
+        map, {{"position.x", "__Pworld.r"}, {"normal.y", "__Nworld.g"}, {"depth", "__depth.r"}, {"uv.v", "__st.g"}});
+    EXPECT_FALSE(detect_roles(layers({{"__Nn", "rgb"}, {"__P", "rgb"}})).has_role("normal"));
+}
+
+TEST(Roles, Arnold) {
+    auto names = layers({{"P", "XYZ"}, {"N", "XYZ"}, {"crypto_object00", "RGBA"}, {"crypto_material00", "RGBA"}});
+    names.insert(names.end(), {"Z", "R", "G", "B", "A"});
+    const auto map = detect_roles(names);
+    EXPECT_EQ(map.writer, Writer::arnold);
+    expect_channels(map, {{"depth", "Z"}, {"normal.x", "N.X"}, {"crypto.coverage0", "crypto_object00.G"}});
+    EXPECT_EQ(map.cryptomatte_layer, "crypto_object");
+}
+
+TEST(Roles, Unreal) {
+    const std::string prefix = "FinalImageMovieRenderQueue_";
+    auto names = Names{"R", "G", "B", prefix + "WorldDepth.R"};
+    for (const char* c : {".R", ".G", ".B"}) names.push_back(prefix + "WorldNormal" + c);
+    const auto map = detect_roles(names);
+    EXPECT_EQ(map.writer, Writer::unreal);
+    expect_channels(map, {{"normal.z", prefix + "WorldNormal.B"}, {"depth", prefix + "WorldDepth.R"}});
+}
+
+TEST(Roles, VRayNormalsAreScreenSpace) {
+    auto names = layers({{"bump_normals", "XYZ"}});
+    names.push_back("Z");
+    const auto map = detect_roles(names);
+    EXPECT_EQ(map.writer, Writer::vray);
+    EXPECT_TRUE(map.screen_space_normals);
+    EXPECT_FALSE(detect_roles(names, {{"normal", "none"}}).screen_space_normals);
+}
+
+TEST(Roles, OwnPlaneNames) {
+    Names names;
+    for (const auto& role : gbuffer_roles()) {
+        if (role.name != "cryptomatte") names.insert(names.end(), role.planes.begin(), role.planes.end());
+    }
+    const auto map = detect_roles(names);
+    for (const auto& name : names) EXPECT_EQ(map.channel_of.at(name), name);
+}
+
+TEST(Roles, OverridesByLayerChannelAndPlane) {
+    const auto map = detect_roles(blender_channels, {{"normal", "ViewLayer.Position"},
+                                                     {"depth", "ViewLayer.UV.A"},
+                                                     {"uv.v", "ViewLayer.UV.A"},
+                                                     {"object", "none"},
+                                                     {"cryptomatte", "CryptoObject"}});
+    expect_channels(map, {{"normal.x", "ViewLayer.Position.X"},
+                          {"depth", "ViewLayer.UV.A"},
+                          {"uv.u", "ViewLayer.UV.U"},
+                          {"uv.v", "ViewLayer.UV.A"}});
+    EXPECT_FALSE(map.has_role("object"));
+}
+
+TEST(Roles, OverridesThatMatchNothingNameTheNearest) {
+    expect_mentions(error_of([] {
+                        detect_roles(blender_channels, {{"normal", "ViewLayer.Norml"}});
+                    }),
+                    {"normal = \"ViewLayer.Norml\"", "nearest name: \"ViewLayer.Normal\"", "ViewLayer.Position.XYZ"});
+    expect_mentions(error_of([] {
+                        detect_roles(blender_channels, {{"norml", "x"}});
+                    }),
+                    {"\"norml\" is not a role", "nearest: \"normal\""});
+    expect_mentions(error_of([] {
+                        detect_roles(blender_channels, {{"normal", "ViewLayer.Depth.Z"}});
+                    }),
+                    {"needs 3 components"});
+    expect_mentions(error_of([] {
+                        detect_roles(blender_channels, {{"cryptomatte", "CryptoMaterial"}});
+                    }),
+                    {"nearest name: \"ViewLayer.CryptoObject\""});
+}
+
+}  // namespace
+}  // namespace wrinkle
