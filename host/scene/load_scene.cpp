@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "scene/files.h"
+#include "scene/readers.h"
+#include "wrinkle/error.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle {
+namespace scene {
+namespace {
+
+toml::table parse(const std::string& text, const std::string& file_name) {
+    try {
+        return toml::parse(std::string_view(text));
+    } catch (const toml::parse_error& error) {
+        const toml::source_position at = error.source().begin;
+        throw Error(fmt::format("{}:{}:{}: not valid TOML: {}", file_name, at.line, at.column, error.description()));
+    }
+}
+
+void read_layers(Table& root, std::vector<Layer>& out) {
+    std::map<std::string, std::uint32_t> lines;
+    for (Table& table : root.tables("layer")) {
+        Layer layer;
+        read_layer(table, out.size() + 1, layer);
+        const std::uint32_t line = table.has("name") ? table.line_of("name") : table.line();
+        const auto [earlier, is_new] = lines.emplace(layer.name, line);
+        if (!is_new)
+            root.document().problems.add(line, fmt::format("the name {} is taken by the layer at line {}; names are "
+                                                           "unique",
+                                                           quote(layer.name), earlier->second));
+        out.push_back(std::move(layer));
+    }
+}
+
+void read_lights(Table& root, Lighting& out) {
+    bool relight_is_sound = true;
+    std::uint32_t line = root.line_of("lighting");
+    if (auto table = root.table("lighting", "[lighting]")) {
+        read_lighting(*table, out);
+        relight_is_sound = !table->is_bad("relight");
+        line = table->line_of("relight");
+    }
+    const std::vector<Table> lights = root.tables("light");
+    for (Table table : lights) read_light(table, out.lights.emplace_back());
+    if (!relight_is_sound || root.is_bad("light") || root.is_bad("lighting")) return;
+    if (out.relight == Relight::off && !lights.empty())
+        root.document().problems.add(lights.front().line(),
+                                     "[[light]] has no effect while relighting is off; set relight = \"lit\" or "
+                                     "\"ratio\" in [lighting], or remove the lights");
+    if (out.relight != Relight::off && lights.empty() && out.ambient == Vec3{})
+        root.document().problems.add(
+            line, "relight without light: add a [[light]], or set ambient in [lighting], or set relight = \"off\"");
+}
+
+/// A table that has to be there; `example` shows the least of it.
+void require_table(Table& root, const char* key, const char* example) {
+    if (!root.has(key)) root.document().problems.add(0, fmt::format("needs [{}], at least {}", key, example));
+}
+
+}  // namespace
+}  // namespace scene
+
+Scene load_scene(const std::filesystem::path& file) {
+    using namespace scene;
+    const std::string text = read_text(file), name = file.filename().string();
+    const toml::table values = parse(text, name);
+    if (values.empty()) throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer] and [camera]", name));
+
+    Document document{.folder = file.parent_path(), .check_files = true, .problems = Problems(name)};
+    Scene out;
+    out.file = file;
+    Table root(document, values, "the scene", 1);
+    require_table(root, "gbuffer", "file = \"frame.exr\"");
+    require_table(root, "camera", "from = \"exr\"");
+    if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
+    if (auto table = root.table("camera", "[camera]")) read_camera(*table, out.camera);
+    read_layers(root, out.layers);
+    read_lights(root, out.lighting);
+    if (auto table = root.table("output", "[output]")) read_output(*table, out.output);
+    root.finish();
+    document.problems.throw_if_any();
+    return out;
+}
+
+}  // namespace wrinkle

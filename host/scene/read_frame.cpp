@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "scene/readers.h"
+#include "scene/vec.h"
+#include "wrinkle/error.h"
+#include "wrinkle/gbuffer.h"
+
+namespace wrinkle::scene {
+namespace {
+
+bool has_inverse(const Mat4& m) {
+    try {
+        inverse(m);
+        return true;
+    } catch (const Error&) { return false; }
+}
+
+/// What keeps `view` from being rigid, or nothing. Matrices written for row vectors are the usual slip.
+std::string why_not_rigid(const Mat4& view) {
+    const bool bottom_is_affine = view[3] == std::array<double, 4>{0, 0, 0, 1};
+    if (!bottom_is_affine && view[0][3] == 0 && view[1][3] == 0 && view[2][3] == 0 && view[3][3] == 1)
+        return "is transposed: its translation is in the last row; it belongs in the last column";
+    if (!bottom_is_affine) return "must have the last row [0, 0, 0, 1]";
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) {
+            const double product = view[i][0] * view[j][0] + view[i][1] * view[j][1] + view[i][2] * view[j][2];
+            if (!(std::abs(product - (i == j)) <= 1e-3))
+                return "must be rigid, world to camera: rows of its upper left 3x3 of unit length and at right angles";
+        }
+    return {};
+}
+
+void read_matrices(Table& table, CameraSource& out) {
+    table.require("view");
+    table.require("proj");
+    Camera camera;
+    const bool has_view = table.read_matrix("view", camera.view), has_proj = table.read_matrix("proj", camera.proj);
+    if (has_view) {
+        const std::string problem = why_not_rigid(camera.view);
+        if (!problem.empty()) table.complain("view", problem);
+    }
+    if (has_proj && !has_inverse(camera.proj)) table.complain("proj", "is singular: it has no inverse");
+    out.inline_camera = camera;
+}
+
+void read_look_at(Table& table, CameraSource& out) {
+    CameraSource::LookAt look;
+    for (const char* key : {"eye", "target", "fov"}) table.require(key);
+    table.read("eye", look.eye);
+    table.read("target", look.target);
+    table.read("up", look.up);
+    table.read_degrees("fov", look.fov_y, {.low = 0, .high = 180, .low_is_allowed = false, .high_is_allowed = false});
+    if (!table.is_bad("eye") && !table.is_bad("target") && !table.is_bad("up")) {
+        if (look.eye == look.target)
+            table.complain("target", "must not be the same point as eye");
+        else if (parallel(subtract(look.target, look.eye), look.up))
+            table.complain(table.has("up") ? "up" : "target",
+                           "must not make up zero or parallel to the viewing direction");
+    }
+    out.look_at = look;
+}
+
+/// A way to state the camera: any of its keys chooses it.
+struct Form {
+    std::vector<const char*> keys;
+    void (*read)(Table& table, CameraSource& out);
+};
+
+const std::vector<Form>& camera_forms() {
+    static const std::vector<Form> forms = {
+        {{"file"},
+         [](Table& table, CameraSource& out) { table.read_file("file", out.file, Table::FramePattern::allowed); }},
+        {{"from"},
+         [](Table& table, CameraSource& out) {
+             table.choose("from", out.exr, {{"exr", true}});
+         }},
+        {{"view", "proj"}, read_matrices},
+        {{"eye", "target", "up", "fov"}, read_look_at},
+    };
+    return forms;
+}
+
+/// A role names a layer (`position = "P"`), or each of its planes a channel (`position.x = "P.X"`, quoted or not).
+void read_roles(Table& table, std::map<std::string, std::string>& out) {
+    std::string name;
+    for (const Role& role : gbuffer_roles()) {
+        if (table.is_table(role.name)) {
+            Table components = *table.table(role.name, role.name + " of " + table.where());
+            for (const std::string& plane : role.planes)
+                if (plane.starts_with(role.name + "."))
+                    if (components.read(plane.substr(role.name.size() + 1), name)) out[plane] = name;
+            components.finish();
+        } else if (table.read(role.name, name)) {
+            out[role.name] = name;
+        }
+        for (const std::string& plane : role.planes)
+            if (plane != role.name && table.has(plane) && table.read(plane, name)) out[plane] = name;
+    }
+    table.finish();
+}
+
+}  // namespace
+
+void read_gbuffer(Table& table, GBufferSource& out) {
+    table.require("file");
+    table.read_file("file", out.file, Table::FramePattern::allowed);
+    table.choose("geometry", out.geometry,
+                 {{"auto", Geometry::automatic}, {"depth", Geometry::depth}, {"position", Geometry::position}});
+    table.choose("depth", out.depth,
+                 {{"auto", DepthKind::automatic}, {"planar", DepthKind::planar}, {"ray", DepthKind::ray}});
+    if (auto roles = table.table("roles", "roles of " + table.where())) read_roles(*roles, out.roles);
+    table.finish();
+}
+
+void read_camera(Table& table, CameraSource& out) {
+    const Form* chosen = nullptr;
+    std::string first;
+    for (const Form& form : camera_forms())
+        for (const char* key : form.keys) table.know(key);
+    for (const Form& form : camera_forms())
+        for (const char* key : form.keys) {
+            if (!table.has(key) || chosen == &form) continue;
+            if (chosen) {
+                table.complain(key, fmt::format("states the camera again, beside {} at line {}; keep one of them",
+                                                quote(first), table.line_of(first)));
+                break;
+            }
+            chosen = &form;
+            first = key;
+        }
+    if (chosen)
+        chosen->read(table, out);
+    else
+        table.complain_here(
+            fmt::format("{} needs one of: file | from = \"exr\" | view and proj | eye, target and fov", table.where()));
+    table.read("max_residual", out.max_residual, positive);
+    table.finish();
+}
+
+void read_output(Table& table, Output& out) {
+    table.read("surface_gradient", out.surface_gradient);
+    table.read("dp_dx", out.dp_dx);
+    table.read("dp_dy", out.dp_dy);
+    table.read("marked", out.marked);
+    table.read("passthrough", out.passthrough);
+    table.read("half", out.half);
+    table.read("png", out.png);
+    table.finish();
+}
+
+}  // namespace wrinkle::scene

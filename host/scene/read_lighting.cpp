@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "scene/kinds.h"
+#include "scene/readers.h"
+#include "scene/vec.h"
+
+namespace wrinkle::scene {
+namespace {
+
+void read_color(Table& table, Light& light) {
+    table.read("color", light.color, not_negative);
+    table.read("intensity", light.intensity, not_negative);
+}
+
+void read_position(Table& table, Light& light) {
+    table.require("position");
+    table.read("position", light.position);
+}
+
+void read_direction(Table& table, Light& light) {
+    table.require("direction");
+    if (table.read("direction", light.direction) && light.direction == Vec3{})
+        table.complain("direction", "must not be zero; it is the way the light travels");
+    light.direction = normalize(light.direction);
+}
+
+void read_sun(Table& table, Light& light) {
+    light.kind = LightKind::sun;
+    read_color(table, light);
+    read_direction(table, light);
+}
+
+void read_point(Table& table, Light& light) {
+    light.kind = LightKind::point;
+    read_color(table, light);
+    read_position(table, light);
+}
+
+void read_spot(Table& table, Light& light) {
+    light.kind = LightKind::spot;
+    read_color(table, light);
+    read_position(table, light);
+    read_direction(table, light);
+    table.read_degrees("inner_angle", light.inner_angle, {.low = 0, .high = 180});
+    table.read_degrees("outer_angle", light.outer_angle, {.low = 0, .high = 180});
+    const bool is_sound = !table.is_bad("inner_angle") && !table.is_bad("outer_angle");
+    if (is_sound && !(light.inner_angle < light.outer_angle)) {
+        const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+        table.complain(
+            table.has("outer_angle") ? "outer_angle" : "inner_angle",
+            fmt::format("must leave inner_angle ({:.4g}) less than outer_angle ({:.4g} degrees from the axis)",
+                        degrees(light.inner_angle), degrees(light.outer_angle)));
+    }
+}
+
+constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spot", read_spot}};
+
+}  // namespace
+
+void read_light(Table& table, Light& out) {
+    const Kind<Light>* kind = choose_kind<Light>(table, kinds);
+    read_as_kind<Light>(table, kinds, kind, out);
+}
+
+void read_lighting(Table& table, Lighting& out) {
+    table.choose("relight", out.relight, {{"off", Relight::off}, {"lit", Relight::lit}, {"ratio", Relight::ratio}});
+    table.read("ambient", out.ambient, not_negative);
+    table.read("albedo", out.albedo, zero_to_one);
+    table.read("roughness", out.roughness, zero_to_one);
+    table.read("f0", out.f0, zero_to_one);
+    table.read("max_ratio", out.max_ratio, {.low = 1});
+    table.read("exposure", out.exposure, {.low = -64, .high = 64});
+    table.finish();
+}
+
+}  // namespace wrinkle::scene

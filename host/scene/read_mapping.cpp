@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "scene/readers.h"
+#include "scene/vec.h"
+
+namespace wrinkle::scene {
+namespace {
+
+/// "#" and 8 hex digits. Any other text that begins with # is taken for a hash with a slip in it, because a name that
+/// matches nothing would quietly mask everything out.
+bool is_hash(std::string_view text) {
+    return text.size() == 9 &&
+           std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isxdigit(c); });
+}
+
+}  // namespace
+
+void read_uv(Table& table, UvMapping& out) {
+    table.choose("source", out.source, {{"aov", UvSource::aov}, {"planar", UvSource::planar}});
+    if (table.has("scale") && !table.is_array("scale")) {
+        double both = 1;
+        if (table.read("scale", both)) out.scale = {both, both};
+    } else {
+        table.read("scale", out.scale);
+    }
+    if (out.scale[0] == 0 || out.scale[1] == 0) table.complain("scale", "must not be 0 (negative mirrors)");
+    table.read("offset", out.offset);
+    table.read_degrees("rotation", out.rotation);
+    for (const auto& [key, axis] : {std::pair{"axis_u", &out.axis_u}, std::pair{"axis_v", &out.axis_v}}) {
+        table.read(key, *axis);
+        table.only_with(key, out.source == UvSource::planar, "source", "planar");
+    }
+    if (!table.is_bad("axis_u") && !table.is_bad("axis_v") && parallel(out.axis_u, out.axis_v))
+        table.complain(table.has("axis_v") ? "axis_v" : "axis_u",
+                       "must not make axis_u and axis_v parallel, and neither may be zero");
+    table.finish();
+}
+
+void read_mask(Table& table, Mask& out) {
+    double object = 0;
+    if (table.read("object", object)) out.object = object;
+    std::string text;
+    if (table.read("cryptomatte", text)) {
+        if (text.front() == '#' && !is_hash(text))
+            table.complain("cryptomatte",
+                           fmt::format("is {}; a hash is # and 8 hex digits, such as \"#1a2b3c4d\"", quote(text)));
+        out.cryptomatte = text;
+    }
+    if (table.read("channel", text)) out.channel = text;
+    table.read("invert", out.invert);
+    MaskTexture texture;
+    const bool has_texture = table.read_file("texture", texture.file);
+    if (auto uv = table.table("uv", "uv of " + table.where())) {
+        read_uv(*uv, texture.uv);
+        if (!table.has("texture")) table.complain("uv", "has an effect only with the key \"texture\"");
+    }
+    if (has_texture) out.texture = texture;
+    const auto has = [&](const char* key) { return table.has(key); };
+    if (!has("object") && !has("cryptomatte") && !has("channel") && !has("texture"))
+        table.complain_here(
+            fmt::format("{} needs one of the keys object, cryptomatte, channel, texture", table.where()));
+    table.finish();
+}
+
+}  // namespace wrinkle::scene
