@@ -102,7 +102,7 @@ std::string neighbour_helper(const Emitter& emitter, const GeometryText& geometr
         "    vec3 n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
         "(real)(1)));\n"
         "    mask away;\n"
-        "    n = wr_face_viewer(wr_normalize(n), {}, &away);\n"
+        "    n = wr_face_viewer(n, {}, &away);\n"
         "    real object = {};\n"
         "    vec2 uv = wr_select(valid, wr_v2(wr_real(u), wr_real(v)), wr_v2((real)(0), (real)(0)));\n"
         "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",

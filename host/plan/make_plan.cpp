@@ -166,7 +166,10 @@ Plan make_plan(const Scene& scene, const Available& available, const PlanOptions
     Emitter emitter{scene, available, options, {}, {}};
     const std::vector<Section> sections = emit_sections(emitter);
     Plan plan = std::move(emitter.plan);
-    plan.source = kIncludes + emitter.helpers;
+    // Few streams of stores: the write-combining buffers hold them all, so even half lines may go past the cache.
+    constexpr std::size_t kFewOutputs = 3;
+    plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
+                  (kIncludes + emitter.helpers);
 
     std::set<std::string> inputs;
     const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {

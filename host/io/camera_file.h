@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/gbuffer_reader.h"
+#include "io/residual.h"
+#include "wrinkle/camera.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle {
+
+/// A frame's camera and how well it fits the frame.
+struct FrameCamera {
+    Camera camera;
+    std::string origin;                ///< file name, or how the header was read
+    std::optional<Residual> residual;  ///< nothing without positions to compare with
+    std::optional<DepthKind> depth;    ///< what the depth plane holds, where position and depth both exist
+};
+
+/// Reads the camera of frame number `frame` from wherever `source` says, without judging the residual.
+/// Throws Error when the file is missing or malformed, is for another aspect, or its matrices are no camera.
+FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& reader, int frame = 0);
+
+/// Throws Error when the positions reproject farther than `max_residual` pixels (their median).
+void check_residual(const FrameCamera& camera, double max_residual, const GBufferReader& reader);
+
+/// Both: a camera is always checked.
+Camera read_camera(const CameraSource& source, const GBufferReader& reader, int frame = 0);
+
+}  // namespace wrinkle

@@ -1,0 +1,105 @@
+#include "io/camera_json.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle::io {
+namespace {
+
+using nlohmann::json;
+
+json parse(const std::filesystem::path& file) {
+    std::error_code code;
+    if (!std::filesystem::exists(file, code)) throw Error(fmt::format("{}: no such file", file.string()));
+    std::ifstream stream(file);
+    if (!stream || std::filesystem::is_directory(file, code)) {
+        throw Error(fmt::format("{}: cannot be read", file.string()));
+    }
+    try {
+        auto value = json::parse(stream);
+        if (value.is_object()) return value;
+    } catch (const json::exception& error) {
+        const std::string text = error.what();  // "[json.exception...] parse error at line 3, column 5: ..."
+        const auto at = text.find("at line");
+        throw Error(fmt::format("{}: not a camera file: the JSON is malformed{}", file.string(),
+                                at == std::string::npos ? "" : " " + text.substr(at)));
+    }
+    throw Error(
+        fmt::format("{}: not a camera file: expected {{\"width\", \"height\", \"view\", \"proj\"}}", file.string()));
+}
+
+Mat4 matrix(const json& camera, const char* key, const std::filesystem::path& file) {
+    const auto fail = [&](std::string_view found) {
+        throw Error(fmt::format("{}: \"{}\" is {}; expected 4 rows of 4 numbers", file.string(), key, found));
+    };
+    if (!camera.contains(key)) fail("missing");
+    const auto& rows = camera[key];
+    if (!rows.is_array() || rows.size() != 4) fail(rows.is_array() ? fmt::format("{} rows", rows.size()) : "no matrix");
+    Mat4 result{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!rows[i].is_array() || rows[i].size() != 4) fail(fmt::format("not 4 numbers in row {}", i));
+        for (std::size_t j = 0; j < 4; ++j) {
+            if (!rows[i][j].is_number()) fail(fmt::format("no number in row {}, column {}", i, j));
+            result[i][j] = rows[i][j].get<double>();
+        }
+    }
+    return result;
+}
+
+void check_aspect(const json& camera, Size frame, const std::filesystem::path& file) {
+    if (!camera.contains("width") && !camera.contains("height")) return;
+    const auto side = [&](const char* key) {
+        if (!camera.contains(key) || !camera[key].is_number() || !(camera[key].get<double>() >= 1)) {
+            throw Error(fmt::format("{}: \"{}\" is missing or not a number of pixels", file.string(), key));
+        }
+        return camera[key].get<double>();
+    };
+    const double width = side("width"), height = side("height");
+    // Half a pixel is what rounding a smaller frame's sides can do.
+    if (std::abs(width / height * frame.height - frame.width) <= 0.5 + 0.5 * frame.width / frame.height) return;
+    throw Error(fmt::format("{}: the camera is for {}x{} and the frame is {}x{}: another aspect", file.string(), width,
+                            height, frame.width, frame.height));
+}
+
+}  // namespace
+
+void check_matrices(const Camera& camera, const std::string& name) {
+    constexpr double rigid = 1e-3;  // float matrices printed with few digits
+    for (const auto* m : {&camera.view, &camera.proj})
+        for (const auto& row : *m)
+            for (const double value : row) {
+                if (std::isfinite(value)) continue;
+                throw Error(
+                    fmt::format("{}: {} holds a number that is not finite", name, m == &camera.view ? "view" : "proj"));
+            }
+    const auto& v = camera.view;
+    if (v[3] != std::array<double, 4>{0, 0, 0, 1}) {
+        const bool looks_transposed = v[0][3] == 0 && v[1][3] == 0 && v[2][3] == 0;
+        throw Error(
+            fmt::format("{}: the last row of view is not 0 0 0 1{}", name,
+                        looks_transposed ? "; it looks transposed: matrices are rows and act on column vectors" : ""));
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double product = v[i][0] * v[j][0] + v[i][1] * v[j][1] + v[i][2] * v[j][2];
+            if (std::abs(product - (i == j ? 1 : 0)) <= rigid) continue;
+            throw Error(fmt::format("{}: view is not rigid: its upper 3x3 must be a rotation, without scale", name));
+        }
+    try {
+        inverse(camera.proj);
+    } catch (const Error&) { throw Error(fmt::format("{}: proj cannot be inverted", name)); }
+}
+
+Camera read_camera_json(const std::filesystem::path& file, Size frame_size) {
+    const auto value = parse(file);
+    const Camera camera{matrix(value, "view", file), matrix(value, "proj", file)};
+    check_matrices(camera, file.string());
+    check_aspect(value, frame_size, file);
+    return camera;
+}
+
+}  // namespace wrinkle::io

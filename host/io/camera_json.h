@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "wrinkle/camera.h"
+
+namespace wrinkle::io {
+
+/// Reads {"width", "height", "view", "proj"}; the matrices are rows and act on column vectors. `frame_size`: the frame
+/// it must fit in aspect.
+Camera read_camera_json(const std::filesystem::path& file, Size frame_size);
+
+/// Throws Error, beginning with `name`, unless the entries are finite, view is rigid and proj can be inverted.
+void check_matrices(const Camera& camera, const std::string& name);
+
+}  // namespace wrinkle::io

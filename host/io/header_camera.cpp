@@ -1,0 +1,177 @@
+#include "io/header_camera.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "io/names.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::io {
+namespace {
+
+Mat4 transposed(const Mat4& m) {
+    Mat4 t{};
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j) t[i][j] = m[j][i];
+    return t;
+}
+
+std::optional<Mat4> inverse_or_nothing(const Mat4& m) {
+    try {
+        return inverse(m);
+    } catch (const Error&) { return std::nullopt; }
+}
+
+/// Header matrices act on row vectors; ours on columns. Some writers forget.
+Mat4 on_columns(const Mat4& m, bool row_vectors) { return row_vectors ? transposed(m) : m; }
+
+/// Rows of world-to-NDC to rows of world-to-clip.
+struct Window {
+    bool unit;  ///< [0,1]; else [-1,1]
+    bool y_down;
+    bool aspect;  ///< the shorter side spans it, the longer one more
+};
+
+Mat4 to_clip(Mat4 ndc, Window window, double aspect) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double w = ndc[3][i];
+        if (window.unit) ndc[0][i] = 2 * ndc[0][i] - w, ndc[1][i] = 2 * ndc[1][i] - w;
+        if (window.y_down) ndc[1][i] = -ndc[1][i];
+        if (window.aspect) (aspect > 1 ? ndc[0][i] : ndc[1][i]) *= aspect > 1 ? 1 / aspect : aspect;
+    }
+    return ndc;
+}
+
+/// The usual one of the writer first.
+std::vector<Window> windows(const std::string& name, Writer writer) {
+    const bool ndc = name == "worldToNDC";
+    std::vector<Window> result;
+    for (const bool unit : {ndc, !ndc})
+        for (const bool y_down : {ndc && writer != Writer::pbrt, !(ndc && writer != Writer::pbrt)})
+            for (const bool aspect : {false, true}) result.push_back({unit, y_down, aspect});
+    return result;
+}
+
+void add_projection(std::vector<HeaderCamera>& found, const std::string& name, const Mat4& world_to_ndc, bool rows,
+                    bool camera_space, Size size, Writer writer) {
+    for (const auto window : windows(name, writer)) {
+        const auto camera =
+            camera_of_clip(to_clip(world_to_ndc, window, static_cast<double>(size.width) / size.height));
+        if (!camera) continue;
+        found.push_back(
+            {*camera,
+             fmt::format("{}, {}, {} {}{}{}", name, rows ? "row vectors" : "transposed",
+                         window.unit ? "(0,0)" : "(-1,-1)", window.y_down ? "top left" : "bottom left",
+                         window.aspect ? ", screen window" : "", camera_space ? ", positions in camera space" : "")});
+    }
+}
+
+void add_projections(std::vector<HeaderCamera>& found, const Metadata& header, Size size, Writer writer) {
+    const bool usual_rows = writer != Writer::pbrt;
+    for (const std::string name : {"worldToNDC", "worldToScreen"}) {
+        const auto matrix = header.matrix(name);
+        if (!matrix) continue;
+        for (const bool rows : {usual_rows, !usual_rows}) {
+            add_projection(found, name, on_columns(*matrix, rows), rows, false, size, writer);
+        }
+    }
+    // pbrt's positions and normals are in camera space unless told otherwise.
+    const auto world_to_camera = header.matrix("worldToCamera"), world_to_ndc = header.matrix("worldToNDC");
+    if (!world_to_camera || !world_to_ndc) return;
+    for (const bool rows : {usual_rows, !usual_rows}) {
+        const auto back = inverse_or_nothing(on_columns(*world_to_camera, rows));
+        if (!back) continue;
+        add_projection(found, "worldToNDC", multiply(on_columns(*world_to_ndc, rows), *back), rows, true, size, writer);
+    }
+}
+
+/// The header's field of view in radians, degrees being unmistakable above pi.
+std::optional<double> field_of_view(const Metadata& header) {
+    for (const auto& name : header.names()) {
+        const auto value = header.number(name);
+        if (!value || !contains_ignoring_case(name, "fov") || !(*value > 0 && *value < 180)) continue;
+        return *value > std::numbers::pi ? *value * std::numbers::pi / 180 : *value;
+    }
+    return std::nullopt;
+}
+
+void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, Size size) {
+    const auto fov = field_of_view(header);
+    if (!fov) return;
+    const double aspect = static_cast<double>(size.width) / size.height, focal = 1 / std::tan(*fov / 2);
+    for (const std::string name : {"worldToCamera", "cameraTransform"}) {
+        const auto matrix = header.matrix(name);
+        if (!matrix) continue;
+        const bool camera_to_world = name == "cameraTransform";  // V-Ray
+        for (const bool rows : {true, false})
+            for (const bool usual : {true, false})
+                for (const bool forward_usual : {true, false})
+                    for (const bool horizontal : {true, false}) {
+                        const bool inverted = usual == camera_to_world;
+                        const bool back_is_z = forward_usual == camera_to_world;
+                        auto view = std::optional(on_columns(*matrix, rows));
+                        if ((*view)[3] != std::array<double, 4>{0, 0, 0, 1}) continue;  // the other way round
+                        if (inverted) view = inverse_or_nothing(*view);
+                        if (!view) continue;
+                        const double fx = horizontal ? focal : focal / aspect, fy = horizontal ? focal * aspect : focal;
+                        const double z = back_is_z ? -1 : 1;
+                        const Mat4 proj{{{fx, 0, 0, 0}, {0, fy, 0, 0}, {0, 0, z, 0}, {0, 0, z, 0}}};
+                        const auto camera = camera_of_clip(multiply(proj, *view));
+                        if (!camera) continue;
+                        found.push_back(
+                            {*camera, fmt::format("{}, {}, {}, looks along {}z, {} field of view", name,
+                                                  rows ? "row vectors" : "transposed",
+                                                  inverted ? "camera to world" : "world to camera",
+                                                  back_is_z ? "-" : "+", horizontal ? "horizontal" : "vertical")});
+                    }
+    }
+}
+
+/// What is odd about a camera when there are no positions to check it with: 0 is a plain one.
+double oddness(const Camera& camera, const Metadata& header, Size size) {
+    const auto& p = camera.proj;
+    double odd = std::abs(std::log(p[0][0] * size.width / (p[1][1] * size.height))) + std::abs(p[0][2]) +
+                 std::abs(p[1][2]) + std::abs(p[1][0] / p[1][1]);
+    if (const auto matrix = header.matrix("worldToCamera")) {
+        double best = std::numeric_limits<double>::infinity();
+        for (const bool rows : {true, false}) {
+            const auto view = on_columns(*matrix, rows);
+            double apart = 0;  // the header's camera looks along +z
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 4; ++j)
+                    apart += std::abs(camera.view[i][j] - (i == 2 ? -1 : 1) * view[i][j]);
+            best = std::min(best, apart);
+        }
+        odd += best;
+    }
+    return odd;
+}
+
+}  // namespace
+
+std::vector<HeaderCamera> header_cameras(const Metadata& header, Size size, Writer writer) {
+    std::vector<HeaderCamera> found;
+    add_projections(found, header, size, writer);
+    if (found.empty()) add_placements(found, header, size);
+    return found;
+}
+
+std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, Writer writer,
+                                               std::span<const PositionSample> samples) {
+    constexpr double clearly = 0.9, noise = 1e-3;  // share and pixels; within them the more usual reading stays
+    std::optional<HeaderCamera> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& candidate : header_cameras(header, size, writer)) {
+        const double misfit = samples.empty() ? oddness(candidate.camera, header, size)
+                                              : reprojection_residual(candidate.camera, size, samples).median;
+        if (best && !(misfit < clearly * least && misfit < least - noise)) continue;
+        best = candidate;
+        least = misfit;
+    }
+    return best;
+}
+
+}  // namespace wrinkle::io

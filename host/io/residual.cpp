@@ -1,0 +1,93 @@
+#include "io/residual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wrinkle {
+namespace {
+
+constexpr double background_depth = 1e9;  // writers put 1e10 or more where there is nothing
+constexpr std::uint32_t samples_per_row = 256;
+
+/// The value with `share` of the others below it.
+double quantile(std::vector<double>& values, double share) {
+    const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index), values.end());
+    return values[index];
+}
+
+bool is_surface(const PositionSample& sample) {
+    const auto& p = sample.position;
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return false;
+    if (!std::isnan(sample.depth)) return sample.depth > 0 && sample.depth < background_depth;
+    return p != Vec3{0, 0, 0};
+}
+
+}  // namespace
+
+std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::uint32_t rows) {
+    std::vector<PositionSample> samples;
+    if (!reader.has_role("position")) return samples;
+    const auto [width, height] = reader.size();
+    const bool with_depth = reader.has_role("depth");
+    std::vector<std::string> planes{"position.x", "position.y", "position.z"};
+    if (with_depth) planes.emplace_back("depth");
+    // Two neighbouring rows each: they share a compressed block, which is what reading them costs.
+    std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{2} * width));
+    std::vector<float*> out;
+    for (auto& plane : values) out.push_back(plane.data());
+
+    const auto pairs = std::clamp((rows + 1) / 2, 1u, std::max(height / 2, 1u));
+    const auto step = std::max(width / samples_per_row, 1u);
+    for (std::uint32_t i = 0; i < pairs; ++i) {
+        const auto middle =
+            static_cast<std::uint32_t>((2 * std::uint64_t{i} + 1) * height / (2 * std::uint64_t{pairs}));
+        const auto row = middle - middle % 2, row_end = std::min(row + 2, height);
+        reader.read_rows(row, row_end, planes, out);
+        for (std::uint32_t pixel = step / 2; pixel < (row_end - row) * width; pixel += step) {
+            const PositionSample sample{pixel % width + 0.5,
+                                        row + pixel / width + 0.5,
+                                        {values[0][pixel], values[1][pixel], values[2][pixel]},
+                                        with_depth ? values[3][pixel] : std::numeric_limits<double>::quiet_NaN()};
+            // A NaN in the depth plane is a hole in the frame, not a missing role.
+            if (with_depth && std::isnan(sample.depth)) continue;
+            if (is_surface(sample)) samples.push_back(sample);
+        }
+    }
+    return samples;
+}
+
+Residual reprojection_residual(const Camera& camera, Size size, std::span<const PositionSample> samples) {
+    if (samples.empty()) return {};
+    std::vector<double> distances;
+    for (const auto& sample : samples) {
+        const auto pixel = project(camera, size, sample.position);
+        distances.push_back(pixel ? std::hypot((*pixel)[0] - sample.x, (*pixel)[1] - sample.y)
+                                  : std::numeric_limits<double>::infinity());
+    }
+    return {quantile(distances, 0.5), quantile(distances, 0.99), distances.size()};
+}
+
+std::optional<DepthKind> measure_depth_kind(const Camera& camera, std::span<const PositionSample> samples) {
+    constexpr double fits = 1e-3;  // relative; half floats and filtering stay below it
+    constexpr double clearly = 4;  // times better than the other reading
+    std::vector<double> planar, ray;
+    for (const auto& [x, y, p, depth] : samples) {
+        if (std::isnan(depth)) continue;
+        Vec3 view{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& row = camera.view[i];
+            view[i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        }
+        planar.push_back(std::abs(-view[2] / depth - 1));
+        ray.push_back(std::abs(std::hypot(view[0], view[1], view[2]) / depth - 1));
+    }
+    if (planar.empty()) return std::nullopt;
+    const double planar_error = quantile(planar, 0.5), ray_error = quantile(ray, 0.5);
+    if (planar_error < fits && clearly * planar_error < ray_error) return DepthKind::planar;
+    if (ray_error < fits && clearly * ray_error < planar_error) return DepthKind::ray;
+    return std::nullopt;
+}
+
+}  // namespace wrinkle

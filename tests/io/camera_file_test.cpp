@@ -1,0 +1,248 @@
+#include "io/camera_file.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "io/header_camera.h"
+#include "tests/io/files.h"
+
+namespace wrinkle {
+namespace {
+
+using namespace test;
+
+constexpr Size size{96, 54};
+constexpr double aspect = 96.0 / 54.0;
+
+Camera true_camera() { return Camera::look_at({1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.6, aspect); }
+
+/// Planar depth of the surface seen through a pixel: wavy, with a hole of background.
+double depth_at(int x, int y) { return x < 5 ? 1e10 : 6 + std::sin(0.2 * x) + std::cos(0.3 * y); }
+
+enum class Space { world, camera };
+
+/// Position and depth planes of true_camera(), with the header of `attributes`.
+void write_frame(const std::filesystem::path& file, const Metadata& header, std::vector<std::string> names,
+                 bool ray = false, Space space = Space::world) {
+    const auto camera = true_camera();
+    const auto rays = *pinhole_rays(camera, size);
+    auto spec = make_spec(96, 54, std::move(names));
+    for (const auto& name : header.names()) {
+        const auto matrix = *header.matrix(name);
+        float values[16];
+        for (std::size_t i = 0; i < 16; ++i) values[i] = static_cast<float>(matrix[i / 4][i % 4]);
+        spec.attribute(name, OIIO::TypeMatrix44, values);
+    }
+    const auto pixel = [&](int c, int x, int y) -> float {
+        const double z = depth_at(x, y);
+        Vec3 d{}, p{};
+        for (std::size_t i = 0; i < 3; ++i) d[i] = rays.d0[i] + (x + 0.5) * rays.dx[i] + (y + 0.5) * rays.dy[i];
+        if (c == 3) return static_cast<float>(ray ? z * std::hypot(d[0], d[1], d[2]) : z);
+        if (z > 1e9) return 0;
+        for (std::size_t i = 0; i < 3; ++i) p[i] = rays.eye[i] + z * d[i];
+        if (space == Space::world) return static_cast<float>(p[static_cast<std::size_t>(c)]);
+        const auto& row = camera.view[static_cast<std::size_t>(c)];
+        const double view = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        return static_cast<float>(c == 2 ? -view : view);  // left-handed, z forward
+    };
+    write_image(file, {{spec, pixel}});
+}
+
+const std::vector<std::string> plain_names{"position.x", "position.y", "position.z", "depth"};
+const std::vector<std::string> pbrt_names{"P.X", "P.Y", "P.Z", "w", "Ns.X"};
+
+Mat4 transposed(const Mat4& m) {
+    Mat4 t{};
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j) t[i][j] = m[j][i];
+    return t;
+}
+
+/// World to the left-handed camera of the EXR standard, on columns.
+Mat4 world_to_camera() {
+    return multiply({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}}}, true_camera().view);
+}
+
+/// World to NDC, (0, 0) top left, on columns.
+Mat4 world_to_ndc() {
+    const Mat4 window{{{0.5, 0, 0, 0.5}, {0, -0.5, 0, 0.5}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    return multiply(window, multiply(true_camera().proj, true_camera().view));
+}
+
+/// Both cameras see the same: same rays, same eye.
+void expect_same(const Camera& camera, double tolerance = 1e-4) {
+    const auto found = pinhole_rays(camera, size), expected = pinhole_rays(true_camera(), size);
+    ASSERT_TRUE(found);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(found->eye[i], expected->eye[i], tolerance);
+        EXPECT_NEAR(found->d0[i], expected->d0[i], tolerance);
+        EXPECT_NEAR(found->dx[i], expected->dx[i], tolerance);
+        EXPECT_NEAR(found->dy[i], expected->dy[i], tolerance);
+    }
+}
+
+CameraSource from_header() {
+    CameraSource source;
+    source.exr = true;
+    return source;
+}
+
+TEST(ClipCamera, ComesBackFromItsProduct) {
+    for (const double skew : {0.0, 0.1}) {
+        auto camera = true_camera();
+        camera.proj[0][2] = 0.3, camera.proj[1][2] = -0.2, camera.proj[1][0] = skew;
+        const auto found = io::camera_of_clip(multiply(camera.proj, camera.view));
+        ASSERT_TRUE(found);
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < 4; ++j) {
+                EXPECT_NEAR(found->view[i][j], camera.view[i][j], 1e-12);
+                if (i != 2) { EXPECT_NEAR(found->proj[i][j], camera.proj[i][j], 1e-12); }
+            }
+    }
+    Camera parallel = true_camera();
+    parallel.proj = {{{0.2, 0, 0, 0.1}, {0, 0.3, 0, -0.1}, {0, 0, -0.1, 0}, {0, 0, 0, 1}}};
+    const auto found = io::camera_of_clip(multiply(parallel.proj, parallel.view));
+    ASSERT_TRUE(found);
+    const Vec3 point{0.3, 0.2, 0.9};
+    EXPECT_NEAR((*project(*found, size, point))[0], (*project(parallel, size, point))[0], 1e-9);
+    EXPECT_NEAR((*project(*found, size, point))[1], (*project(parallel, size, point))[1], 1e-9);
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(found->view[2][j], parallel.view[2][j], 1e-12);
+    EXPECT_FALSE(io::camera_of_clip(Mat4{}));
+}
+
+TEST(CameraFile, HeaderOfTheStandard) {
+    TempFolder folder;
+    Metadata header;
+    header.set("worldToCamera", transposed(world_to_camera()));
+    header.set("worldToNDC", transposed(world_to_ndc()));
+    write_frame(folder / "f.exr", header, plain_names);
+    const auto found = read_frame_camera(from_header(), GBufferReader(folder / "f.exr"));
+    EXPECT_EQ(found.origin, "header: worldToNDC, row vectors, (0,0) top left");
+    ASSERT_TRUE(found.residual);
+    EXPECT_LT(found.residual->p99, 0.01);
+    EXPECT_GT(found.residual->count, 1000u);
+    EXPECT_EQ(found.depth, DepthKind::planar);
+    expect_same(found.camera);
+}
+
+TEST(CameraFile, HeaderWithoutPositionsToCheckWith) {
+    TempFolder folder;
+    Metadata header;
+    header.set("worldToCamera", transposed(world_to_camera()));
+    header.set("worldToNDC", transposed(world_to_ndc()));
+    write_frame(folder / "f.exr", header, {"a.x", "a.y", "a.z", "depth"});
+    const auto found = read_frame_camera(from_header(), GBufferReader(folder / "f.exr"));
+    EXPECT_FALSE(found.residual);
+    EXPECT_FALSE(found.depth);
+    expect_same(found.camera);
+}
+
+TEST(CameraFile, HeaderOfPbrtIsTransposedAndYUp) {
+    TempFolder folder;
+    // [0,1], y up, the screen window as wide as the aspect.
+    const Mat4 window{{{0.5 * aspect, 0, 0, 0.5}, {0, 0.5, 0, 0.5}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    Metadata header;
+    header.set("worldToCamera", world_to_camera());
+    header.set("worldToNDC", multiply(window, multiply(true_camera().proj, true_camera().view)));
+    write_frame(folder / "world.exr", header, pbrt_names);
+    const GBufferReader reader(folder / "world.exr");
+    EXPECT_EQ(reader.roles().writer, Writer::pbrt);
+    const auto found = read_frame_camera(from_header(), reader);
+    EXPECT_EQ(found.origin, "header: worldToNDC, transposed, (0,0) bottom left, screen window");
+    EXPECT_LT(found.residual->p99, 0.01);
+    expect_same(found.camera);
+
+    write_frame(folder / "camera.exr", header, pbrt_names, false, Space::camera);
+    const auto in_camera_space = read_frame_camera(from_header(), GBufferReader(folder / "camera.exr"));
+    expect_mentions(in_camera_space.origin, {"positions in camera space"});
+    EXPECT_LT(in_camera_space.residual->p99, 0.01);
+}
+
+TEST(CameraFile, HeaderOfVRayIsCameraToWorld) {
+    TempFolder folder;
+    auto spec = make_spec(96, 54, {"bump_normals.X", "bump_normals.Y", "bump_normals.Z"});
+    const auto matrix = transposed(inverse(true_camera().view));
+    float values[16];
+    for (std::size_t i = 0; i < 16; ++i) values[i] = static_cast<float>(matrix[i / 4][i % 4]);
+    spec.attribute("cameraTransform", OIIO::TypeMatrix44, values);
+    write_image(folder / "no_fov.exr", {{spec}});
+    expect_mentions(error_of([&] { read_camera(from_header(), GBufferReader(folder / "no_fov.exr")); }),
+                    {"no_fov.exr: the header has no camera", "field of view"});
+    spec.attribute("cameraFov", static_cast<float>(2 * std::atan(std::tan(0.3) * aspect) * 180 / 3.14159265358979));
+    write_image(folder / "vray.exr", {{spec}});
+    expect_same(read_camera(from_header(), GBufferReader(folder / "vray.exr")));
+}
+
+TEST(CameraFile, RayDistanceIsToldFromPlanarDepth) {
+    TempFolder folder;
+    write_frame(folder / "ray.exr", {}, plain_names, true);
+    CameraSource source;
+    source.inline_camera = true_camera();
+    EXPECT_EQ(read_frame_camera(source, GBufferReader(folder / "ray.exr")).depth, DepthKind::ray);
+}
+
+TEST(CameraFile, LookAtTakesTheFramesAspect) {
+    TempFolder folder;
+    write_frame(folder / "f.exr", {}, plain_names);
+    CameraSource source;
+    source.look_at = CameraSource::LookAt{{1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.6};
+    expect_same(read_camera(source, GBufferReader(folder / "f.exr")), 1e-12);
+}
+
+TEST(CameraFile, ACameraThatDoesNotFitIsRefused) {
+    TempFolder folder;
+    write_frame(folder / "f.exr", {}, plain_names);
+    CameraSource source;
+    source.look_at = CameraSource::LookAt{{1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.7};
+    expect_mentions(error_of([&] { read_camera(source, GBufferReader(folder / "f.exr")); }),
+                    {"does not fit", "f.exr", "pixels away", "max_residual = 0.5"});
+    source.max_residual = 20;
+    EXPECT_NO_THROW(read_camera(source, GBufferReader(folder / "f.exr")));
+    expect_mentions(error_of([&] { read_camera({}, GBufferReader(folder / "f.exr")); }), {"no camera"});
+    expect_mentions(error_of([&] { read_camera(from_header(), GBufferReader(folder / "f.exr")); }),
+                    {"the header has no camera: neither worldToNDC"});
+}
+
+std::string json_matrix(const Mat4& m) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < 4; ++i)
+        text += fmt::format("{}[{}, {}, {}, {}]", i == 0 ? "" : ", ", m[i][0], m[i][1], m[i][2], m[i][3]);
+    return text + "]";
+}
+
+TEST(CameraFile, Json) {
+    TempFolder folder;
+    write_frame(folder / "f.0012.exr", {}, plain_names);
+    const GBufferReader reader(folder / "f.0012.exr");
+    CameraSource source;
+    source.file = folder / "f.####.json";
+    const auto file = folder / "f.0012.json";
+    const auto view = json_matrix(true_camera().view), proj = json_matrix(true_camera().proj);
+    const auto complaint = [&](const std::string& text) {
+        write_text(file, text);
+        return error_of([&] { read_camera(source, reader, 12); });
+    };
+    expect_mentions(error_of([&] { read_camera(source, reader, 12); }), {"f.0012.json: no such file"});
+    expect_mentions(complaint("{\"view\": [\n1,"), {"malformed", "line 2"});
+    expect_mentions(complaint("[1, 2]"), {"not a camera file"});
+    expect_mentions(complaint("{\"view\": " + view + "}"), {"\"proj\" is missing"});
+    expect_mentions(complaint(R"({"view": [[1,2],[3,4]], "proj": 3})"), {"\"view\" is 2 rows", "4 rows of 4"});
+    expect_mentions(complaint("{\"view\": " + view + R"(, "proj": [[1,0,0,0],[0,1,0,0],[0,0,"x",0],[0,0,1,0]]})"),
+                    {"\"proj\" is no number in row 2, column 2"});
+    expect_mentions(complaint("{\"view\": " + view + R"(, "proj": [[1e999,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,0]]})"),
+                    {"f.0012.json"});
+    expect_mentions(
+        complaint("{\"view\": " + json_matrix(transposed(true_camera().view)) + ", \"proj\": " + proj + "}"),
+        {"looks transposed"});
+    expect_mentions(complaint("{\"view\": [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]], \"proj\": " + proj + "}"),
+                    {"not rigid"});
+    expect_mentions(complaint("{\"view\": " + view + ", \"proj\": [[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,-1,0]]}"),
+                    {"proj cannot be inverted"});
+    expect_mentions(complaint(fmt::format(R"({{"width": 96, "height": 96, "view": {}, "proj": {}}})", view, proj)),
+                    {"the camera is for 96x96 and the frame is 96x54"});
+    write_text(file, fmt::format(R"({{"width": 192, "height": 108, "view": {}, "proj": {}}})", view, proj));
+    expect_same(read_camera(source, reader, 12), 1e-12);
+}
+
+}  // namespace
+}  // namespace wrinkle

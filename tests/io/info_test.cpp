@@ -1,0 +1,91 @@
+#include "io/info.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/io/files.h"
+
+namespace wrinkle {
+namespace {
+
+using namespace test;
+using Names = std::vector<std::string>;
+
+const Readiness& use_of(const GBufferInfo& info, const std::string& use) {
+    const auto found = std::ranges::find(info.uses, use, &Readiness::use);
+    EXPECT_NE(found, info.uses.end()) << use;
+    return *found;
+}
+
+const RoleStats& stats_of(const GBufferInfo& info, const std::string& role) {
+    const auto found = std::ranges::find(info.stats, role, &RoleStats::role);
+    EXPECT_NE(found, info.stats.end()) << role;
+    return *found;
+}
+
+TEST(Info, CountsWhatCannotBeUsed) {
+    TempFolder folder;
+    const auto pixel = [](int c, int x, int y) -> float {
+        if (c < 3)
+            return y == 0             ? 0.0f
+                   : x == 1 && y == 1 ? std::numeric_limits<float>::quiet_NaN()
+                                      : (c == 2 ? -0.5f : 0.25f);
+        return y == 0 ? 1e10f : x == 3 ? -1.0f : static_cast<float>(x + 1);
+    };
+    write_exr(folder / "f.exr", 10, 200, {"N.X", "N.Y", "N.Z", "Z"}, pixel);
+    const auto info = gather_info({.file = folder / "f.exr", .roles = {}});
+    EXPECT_EQ(info.size, (Size{10, 200}));
+    EXPECT_EQ(info.channels, (Names{"N.X", "N.Y", "N.Z", "Z"}));
+    const auto& normal = stats_of(info, "normal");
+    EXPECT_EQ(normal.invalid, 11u);
+    EXPECT_EQ(normal.min, -0.5);
+    EXPECT_EQ(normal.max, 0.25);
+    EXPECT_EQ(normal.channels, (Names{"N.X", "N.Y", "N.Z"}));
+    const auto& depth = stats_of(info, "depth");
+    EXPECT_EQ(depth.invalid, 10u + 199u);
+    EXPECT_EQ(depth.min, 1);
+    EXPECT_EQ(depth.max, 10);
+    EXPECT_FALSE(info.camera);
+    expect_mentions(info.camera_problem, {"the header has no camera"});
+}
+
+TEST(Info, SaysWhatEachUseLacks) {
+    TempFolder folder;
+    write_exr(folder / "f.exr", 4, 4, {"N.X", "N.Y", "N.Z", "Z", "roughness"});
+    write_text(
+        folder / "f.exr.camera.json",
+        R"({"view": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], "proj": [[1,0,0,0],[0,1,0,0],[0,0,-1,-1],[0,0,-1,0]]})");
+    const auto info = gather_info({.file = folder / "f.exr", .roles = {}});
+    ASSERT_TRUE(info.camera) << info.camera_problem;
+    expect_mentions(info.camera->origin, {"f.exr.camera.json"});
+    EXPECT_FALSE(info.camera->residual);
+    EXPECT_EQ(use_of(info, "normal_map").missing, Names{"uv"});
+    EXPECT_TRUE(use_of(info, "triplanar").missing.empty());
+    EXPECT_EQ(use_of(info, "lighting").defaults, Names{"albedo"});
+    EXPECT_EQ(use_of(info, "relight = \"ratio\"").missing, Names{"beauty"});
+    EXPECT_EQ(use_of(info, "mask by object").missing, Names{"object"});
+
+    write_exr(folder / "n.exr", 4, 4, {"R", "G", "B"});
+    EXPECT_EQ(use_of(gather_info({.file = folder / "n.exr", .roles = {}}), "decal").missing,
+              (Names{"normal", "depth or position", "camera"}));
+}
+
+TEST(Info, CommittedBlenderFrame) {
+    const std::filesystem::path file = std::filesystem::path(WRINKLE_SOURCE_DIR) / "data/gbuffer/small.exr";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+    const auto info = gather_info({.file = file, .roles = {}});
+    EXPECT_EQ(info.roles.writer, Writer::blender);
+    EXPECT_EQ(info.roles.depth, DepthKind::planar);
+    for (const char* kind : {"normal_map", "triplanar", "noise", "decal", "mask by object", "mask by cryptomatte"}) {
+        EXPECT_TRUE(use_of(info, kind).missing.empty()) << kind;
+    }
+    EXPECT_EQ(stats_of(info, "position").invalid, 0u);
+    EXPECT_FALSE(info.cryptomatte_names.empty());
+    ASSERT_TRUE(info.camera) << info.camera_problem;
+    ASSERT_TRUE(info.camera->residual);
+    EXPECT_LT(info.camera->residual->median, 0.003);
+    EXPECT_EQ(info.camera->depth, DepthKind::planar);
+}
+
+}  // namespace
+}  // namespace wrinkle
