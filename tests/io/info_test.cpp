@@ -35,7 +35,7 @@ TEST(Info, CountsWhatCannotBeUsed) {
     write_exr(folder / "f.exr", 10, 200, {"N.X", "N.Y", "N.Z", "Z"}, pixel);
     const auto info = gather_info({.file = folder / "f.exr", .roles = {}});
     EXPECT_EQ(info.size, (Size{10, 200}));
-    EXPECT_EQ(info.channels, (Names{"N.X", "N.Y", "N.Z", "Z"}));
+    EXPECT_EQ(info.channels.size(), 4u);
     const auto& normal = stats_of(info, "normal");
     EXPECT_EQ(normal.invalid, 11u);
     EXPECT_EQ(normal.min, -0.5);
