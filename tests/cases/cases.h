@@ -1,0 +1,85 @@
+#pragma once
+
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/reference/golden.h"
+
+/// Inputs of a concept with what is expected of it; shared by tests and benchmarks.
+namespace wrinkle::cases {
+
+using reference::GoldenTable;
+using reference::real;
+using reference::Vec;
+using reference::Vec2;
+using V = Vec<real>;
+using V2 = Vec2<real>;
+
+/// Inputs as kernels read them: "n.x", "n.y", "n.z" make a vec3 n; "st.s", "st.t" a vec2 st; "k" a real.
+using Columns = std::map<std::string, std::vector<float>>;
+
+/// Rows of inputs, the answers in long double (scalars and pairs in the first components), and what to call a row.
+struct Cases {
+    std::string name{};
+    Columns inputs{};
+    std::vector<std::string> labels{};
+    std::vector<bool> hard{};
+    std::map<std::string, std::vector<V>> want{};  ///< NaN or Inf: only a finite answer is asked for
+    std::vector<real> allowance{};                 ///< factor on the bound of a row; 1 unless a docblock says otherwise
+
+    std::size_t size() const { return labels.size(); }
+
+    void add(const std::string& label, bool is_hard, real factor = 1) {
+        labels.push_back(label);
+        hard.push_back(is_hard);
+        allowance.push_back(factor);
+    }
+    void in(const std::string& column, real v) { inputs[column].push_back(static_cast<float>(v)); }
+    void in(const std::string& column, V v) { in(column + ".x", v.x), in(column + ".y", v.y), in(column + ".z", v.z); }
+    void in(const std::string& column, V2 v) { in(column + ".x", v.x), in(column + ".y", v.y); }
+    void out(const std::string& answer, V v) { want[answer].push_back(v); }
+    void out(const std::string& answer, V2 v) { want[answer].push_back({v.x, v.y, 0}); }
+    void out(const std::string& answer, real v) { want[answer].push_back({v, 0, 0}); }
+
+    V vec(std::size_t row, const std::string& column) const {
+        const auto part = [&](const char* p) { return real{inputs.at(column + p)[row]}; };
+        return {part(".x"), part(".y"), part(".z")};
+    }
+};
+
+/// Adds row `row` of a golden table: its label and the vec3 inputs named.
+inline void add_golden_row(Cases& cases, const GoldenTable& table, std::size_t row,
+                           const std::vector<std::string>& vectors, real allowance = 1) {
+    cases.add(cases.name + ": " + table.label(row), table.text(row, "set") == "hard", allowance);
+    for (const std::string& v : vectors) cases.in(v, table.vec(row, v));
+}
+
+/// Random numbers that are exact floats.
+class Random {
+public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+
+    real uniform(real low, real high) {
+        return static_cast<float>(low + (high - low) * real(engine_() - engine_.min()) / real(engine_.max()));
+    }
+    int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
+    /// 10 to a random exponent.
+    real magnitude(real low, real high) { return static_cast<float>(std::pow(10.0L, uniform(low, high))); }
+    V box(real size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+    /// Unit to float32 accuracy, as G-buffers store normals.
+    V unit() {
+        for (;;) {
+            const V v = box(1);
+            const real square = dot(v, v);
+            if (square > 0.01L && square < 1) return rounded(normalize(v));
+        }
+    }
+    static V rounded(V v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+private:
+    std::mt19937 engine_;
+};
+
+}  // namespace wrinkle::cases

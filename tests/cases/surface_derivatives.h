@@ -1,0 +1,44 @@
+#pragma once
+
+#include "tests/cases/cases.h"
+#include "tests/reference/scale_dependent.h"
+
+namespace wrinkle::cases {
+
+/// dp/dx, dp/dy within the tangent plane of n and d(s,t)/dx, d(s,t)/dy, regular and hard.
+struct SurfaceDerivatives {
+    V n, dp_dx, dp_dy;
+    reference::TexDerivative<real> st;
+};
+
+/// The columns of golden tables 04, 06 and 11 as inputs n, dp_dx, dp_dy, dst_dx, dst_dy.
+inline SurfaceDerivatives golden_derivatives(const GoldenTable& table, std::size_t row) {
+    return {table.vec(row, "n"),
+            table.vec(row, "dPdx"),
+            table.vec(row, "dPdy"),
+            {table.vec2(row, "dSTdx"), table.vec2(row, "dSTdy")}};
+}
+
+inline void add_inputs(Cases& c, const SurfaceDerivatives& d) {
+    c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dst_dx", d.st.dx), c.in("dst_dy", d.st.dy);
+}
+
+/// A footprint of any size, stretched up to 1e6 : 1 as at grazing angles, texture coordinates of any scale and sheared,
+/// mirrored or nearly degenerate.
+inline SurfaceDerivatives random_derivatives(Random& random) {
+    SurfaceDerivatives d;
+    d.n = random.unit();
+    const V u = normalize(cross(d.n, random.unit())), v = cross(normalize(d.n), u);
+    const real size = random.magnitude(-9, 6), stretch = random.magnitude(0, 6), angle = random.uniform(0, 6.28L);
+    const real c = std::cos(angle), s = std::sin(angle);
+    d.dp_dx = Random::rounded((u * c + v * (s * stretch)) * size);
+    d.dp_dy = Random::rounded((u * -s + v * (c * stretch)) * size);
+    const real scale = random.magnitude(-12, 6), shear = random.magnitude(-4, 0);
+    const auto texel = [&](real a, real b) { return V2{static_cast<float>(a * scale), static_cast<float>(b * scale)}; };
+    const real a = random.uniform(-1, 1), b = random.uniform(-1, 1);
+    d.st.dx = texel(a, b);
+    d.st.dy = texel(a * 0.5L + b * shear, b * 0.5L + random.uniform(-1, 1) * shear);
+    return d;
+}
+
+}  // namespace wrinkle::cases

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "tests/cases/surface_derivatives.h"
+
+namespace wrinkle::cases {
+
+constexpr double tangent_frame_degrees = 1e-5;
+
+/// T and B: golden rows, random footprints, exactly degenerate ones (a frame of zeros).
+inline Cases tangent_frame_cases() {
+    Cases c{.name = "listing04_genbasis_tb"};
+    const auto answer = [&](const SurfaceDerivatives& d) {
+        add_inputs(c, d);
+        const auto f = reference::tangent_frame(normalize(d.n), d.dp_dx, d.dp_dy, d.st);
+        c.out("T", f.tangent), c.out("B", f.bitangent);
+    };
+    const GoldenTable table = reference::golden("listing04_genbasis_tb");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        add_golden_row(c, table, i, {});
+        answer(golden_derivatives(table, i));
+        if (is_zero(c.want["T"].back()) || !finite(table.vec(i, "want_T"))) continue;
+        c.want["T"].back() = table.vec(i, "want_T"), c.want["B"].back() = table.vec(i, "want_B");
+    }
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        c.add("tangent frame of any footprint, seed " + std::to_string(seed), true);
+        answer(random_derivatives(random));
+    }
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        Random random(seed);
+        SurfaceDerivatives d = random_derivatives(random);
+        d.st.dy = seed % 2 ? V2{0, 0} : d.st.dx;
+        c.add("tangent frame, determinant 0, seed " + std::to_string(seed), true);
+        answer(d);
+    }
+    return c;
+}
+
+}  // namespace wrinkle::cases
