@@ -30,6 +30,12 @@ Part geometry(const OIIO::ImageSpec& spec) {
 }
 
 void check(const OIIO::ImageSpec& spec, Size size, int part, const std::filesystem::path& file) {
+    constexpr int longest_side = 1 << 17;  // beyond it a header is damaged, and memory would run out before rows do
+    if (spec.full_width < 1 || spec.full_height < 1 || spec.full_width > longest_side ||
+        spec.full_height > longest_side) {
+        throw Error(fmt::format("{}: a frame of {}x{} pixels; the header is damaged", file.string(), spec.full_width,
+                                spec.full_height));
+    }
     if (spec.depth > 1) throw Error(fmt::format("{}: part {} is a volume, not a picture", file.string(), part));
     if (Size{static_cast<std::uint32_t>(spec.full_width), static_cast<std::uint32_t>(spec.full_height)} == size) return;
     throw Error(fmt::format("{}: part {} is {}x{} but the first part is {}x{}; a frame's parts must agree",

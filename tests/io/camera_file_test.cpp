@@ -37,7 +37,7 @@ void write_frame(const std::filesystem::path& file, const Metadata& header, std:
         const double z = depth_at(x, y);
         Vec3 d{}, p{};
         for (std::size_t i = 0; i < 3; ++i) d[i] = rays.d0[i] + (x + 0.5) * rays.dx[i] + (y + 0.5) * rays.dy[i];
-        if (c == 3) return static_cast<float>(ray ? z * std::hypot(d[0], d[1], d[2]) : z);
+        if (c >= 3) return static_cast<float>(ray ? z * std::hypot(d[0], d[1], d[2]) : z);
         if (z > 1e9) return 0;
         for (std::size_t i = 0; i < 3; ++i) p[i] = rays.eye[i] + z * d[i];
         if (space == Space::world) return static_cast<float>(p[static_cast<std::size_t>(c)]);

@@ -168,6 +168,11 @@ TEST(GBufferReader, RefusesFilesThatAreNoFrames) {
     write_text(folder / "text.exr", "this is no picture at all, however long it goes on");
     expect_mentions(error_of([&] { GBufferReader(folder / "text.exr"); }), {"text.exr: not an image"});
 
+    auto huge = make_spec(4, 4, {"Z"});
+    huge.full_width = 1 << 30;
+    write_image(folder / "huge.exr", {{huge}});
+    expect_mentions(error_of([&] { GBufferReader(folder / "huge.exr"); }), {"1073741824x4", "header is damaged"});
+
     auto deep = make_spec(4, 4, {"Z"});
     deep.deep = true;
     auto output = OIIO::ImageOutput::create("openexr");
