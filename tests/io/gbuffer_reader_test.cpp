@@ -169,9 +169,9 @@ TEST(GBufferReader, RefusesFilesThatAreNoFrames) {
     expect_mentions(error_of([&] { GBufferReader(folder / "text.exr"); }), {"text.exr: not an image"});
 
     auto huge = make_spec(4, 4, {"Z"});
-    huge.full_width = 1 << 30;
+    huge.full_width = 1 << 20;
     write_image(folder / "huge.exr", {{huge}});
-    expect_mentions(error_of([&] { GBufferReader(folder / "huge.exr"); }), {"1073741824x4", "header is damaged"});
+    expect_mentions(error_of([&] { GBufferReader(folder / "huge.exr"); }), {"1048576x4", "header is damaged"});
 
     auto deep = make_spec(4, 4, {"Z"});
     deep.deep = true;
