@@ -1,0 +1,39 @@
+// sources/fractal.clh
+#include "tests/cases/noise.h"
+#include "tests/kernels/check.h"
+
+namespace wrinkle::test {
+namespace {
+
+const std::vector<std::string> includes{"sources/noise_table.clh", "sources/noise.clh", "sources/fractal.clh"};
+
+TEST(Fractal, GradientOfTheSum) {
+    cases::FractalCases c = cases::fractal_cases();
+    KernelData data;
+    data.constants = std::move(c.constants);
+    data.constants_per_row = cases::fractal_constants;
+    const std::string call = fmt::format(
+        "vec3 g = wr_fractal_gradient(p, constants + 3, constants[0], constants[1], constants[2], {}, footprint,\n"
+        "                             (mask)(p.x == p.x));",
+        cases::fractal_octaves);
+    check(c.cases, includes, call, {{"gradient", xyz("g"), Metric::absolute, 1e-3, 1e-3, 1e-9}}, data, INFINITY);
+}
+
+TEST(Fractal, WeightAndFootprint) {
+    cases::Cases c{.name = "octave weights"};
+    for (unsigned seed = 1; seed <= 64; ++seed) {
+        cases::Random random(seed);
+        const V dx = random.box(1), dy = random.box(2);
+        const real cells = random.uniform(0, 0.7L);
+        c.add("octave weight, seed " + std::to_string(seed), false);
+        c.in("dx", dx), c.in("dy", dy), c.in("cells", cells);
+        c.out("weight", reference::octave_weight(cells));
+        c.out("footprint", std::max(length(dx), length(dy)));
+    }
+    check(c, includes, "",
+          {{"weight", {"wr_octave_weight(cells)"}, Metric::absolute, 3e-7, 0},
+           {"footprint", {"wr_footprint_size(dx, dy)"}, Metric::relative, 3e-7, 0}});
+}
+
+}  // namespace
+}  // namespace wrinkle::test
