@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/frame_list.h"
+#include "io/threads.h"
+#include "run/render.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::cli {
+
+namespace {
+
+struct RunArguments {
+    std::filesystem::path scene;
+    std::string directory = "out", frames, device;
+    int threads = 0, repeat = 1;
+    bool quiet = false, json = false;
+};
+
+/// A bar on a terminal; nothing when the output goes to a file.
+std::function<void(double)> progress_bar(bool wanted) {
+    if (!wanted || isatty(STDERR_FILENO) == 0) return {};
+    return [](double share) {
+        constexpr int width = 40;
+        const int full = static_cast<int>(share * width);
+        fmt::print(stderr, "\r[{:=<{}}{:<{}}] {:3.0f}%", "", full, "", width - full, share * 100);
+        if (share >= 1) fmt::print(stderr, "\r{:<{}}\r", "", width + 8);
+        std::fflush(stderr);
+    };
+}
+
+void print_table(const RenderReport& report) {
+    const double megapixels = static_cast<double>(report.pixels) / 1e6;
+    fmt::print("{} frame{}, {:.2f} Mpixel, {} active layer{} on {} ({} lanes)\n", report.frames,
+               report.frames == 1 ? "" : "s", megapixels, report.layers, report.layers == 1 ? "" : "s",
+               report.device.name, report.device.lanes);
+    for (const std::string& camera : report.cameras) fmt::print("camera: {}\n", camera);
+    fmt::print("\n  {:<22}{:>10}\n", "phase", "seconds");
+    fmt::print("  {:<22}{:>10.3f}\n", "read", report.read);
+    fmt::print("  {:<22}{:>10.3f}\n", "upload (textures)", report.upload);
+    fmt::print("  {:<22}{:>10.3f}\n", report.cache_hit ? "build (cache hit)" : "build (compiled)", report.build);
+    fmt::print("  {:<22}{:>10.3f}   {:.2f} ns/pixel\n", "kernels", report.kernels, report.kernel_ns_per_pixel);
+    fmt::print("  {:<22}{:>10.3f}\n", "write", report.write);
+    fmt::print("  {:<22}{:>10.3f}   {:.3f} of it outside read, kernels, write\n", "wall (phases overlap)", report.wall,
+               report.outside);
+    fmt::print("  {:<22}{:>10.0f}\n\n", "peak memory, MiB", static_cast<double>(report.peak_memory) / (1 << 20));
+    for (const auto& file : report.files) fmt::print("wrote {}\n", file.string());
+}
+
+void print_json(const RenderReport& report) {
+    nlohmann::json files = nlohmann::json::array();
+    for (const auto& file : report.files) files.push_back(file.string());
+    fmt::print("{}\n", nlohmann::json{{"frames", report.frames},
+                                      {"pixels", report.pixels},
+                                      {"layers", report.layers},
+                                      {"device", report.device.name},
+                                      {"lanes", report.device.lanes},
+                                      {"cache_hit", report.cache_hit},
+                                      {"seconds",
+                                       {{"read", report.read},
+                                        {"upload", report.upload},
+                                        {"build", report.build},
+                                        {"kernels", report.kernels},
+                                        {"write", report.write},
+                                        {"wall", report.wall},
+                                        {"outside", report.outside}}},
+                                      {"kernel_ns_per_pixel", report.kernel_ns_per_pixel},
+                                      {"peak_memory_bytes", report.peak_memory},
+                                      {"cameras", report.cameras},
+                                      {"files", files}}
+                           .dump(2));
+}
+
+void run(const RunArguments& arguments) {
+    const Scene scene = load_scene(arguments.scene);
+    RenderOptions options;
+    options.directory = arguments.directory;
+    options.device = arguments.device;
+    options.repeat = arguments.repeat;
+    if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+    check_frame_pattern(scene, arguments.frames);
+    if (arguments.threads > 0) {
+        setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);  // before PoCL starts
+        set_image_threads(arguments.threads);
+    }
+    options.progress = progress_bar(!arguments.quiet && !arguments.json);
+    const RenderReport report = render(scene, options);
+    if (arguments.json)
+        print_json(report);
+    else if (!arguments.quiet)
+        print_table(report);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+    auto arguments = std::make_shared<RunArguments>();
+    CLI::App* command = app.add_subcommand("run", "Evaluate a scene and write its pictures");
+    command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+    command->add_option("-o,--output", arguments->directory, "folder for the pictures, made if missing")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command->add_option("--frames", arguments->frames, "frame numbers: 7, 1-10, 1-100x5, or several with commas")
+        ->type_name("LIST");
+    command
+        ->add_option("--device", arguments->device,
+                     "number, type (cpu, gpu) or part of a name; see \"wrinkle devices\"")
+        ->type_name("DEVICE");
+    command->add_option("--threads", arguments->threads, "threads for files and for CPU kernels; 0: all cores")
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--repeat", arguments->repeat, "run the kernels N times and report the median, to time them")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    command->add_flag("--quiet", arguments->quiet, "print errors only");
+    command->add_flag("--json", arguments->json, "print the report as JSON");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace wrinkle::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace wrinkle::cli {
+
+/// Adds a subcommand to the program; what it does runs from the subcommand's callback.
+void add_run(CLI::App& app);
+void add_info(CLI::App& app);
+void add_explain(CLI::App& app);
+void add_devices(CLI::App& app);
+
+}  // namespace wrinkle::cli

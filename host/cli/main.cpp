@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "cli/commands.h"
+#include "wrinkle/error.h"
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "wrinkle evaluates bump mapping after the render: a G-buffer in, new normals and a lit picture out.\n"
+        "\n"
+        "Examples:\n"
+        "  wrinkle info frame.exr                      what is in a G-buffer, and what that is enough for\n"
+        "  wrinkle run courtyard.toml -o out           evaluate a scene; writes out/normal.exr, out/lit.png ...\n"
+        "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
+        "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
+        "  wrinkle devices                             where it can run\n",
+        "wrinkle"};
+    app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
+    app.require_subcommand(1);
+    app.failure_message(CLI::FailureMessage::help);
+    wrinkle::cli::add_run(app);
+    wrinkle::cli::add_info(app);
+    wrinkle::cli::add_explain(app);
+    wrinkle::cli::add_devices(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());
+        return 2;
+    } catch (const wrinkle::Error& error) {
+        fmt::print(stderr, "wrinkle: {}\n", error.what());
+        return 1;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "wrinkle: out of memory\n");
+        return 1;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "wrinkle: unexpected failure, a defect of wrinkle: {}\n", error.what());
+        return 3;
+    }
+    return 0;
+}

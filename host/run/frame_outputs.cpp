@@ -1,0 +1,97 @@
+#include "run/frame_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Channel name of an output plane: vectors as .X .Y .Z, so that other programs show them as layers.
+std::string channel_name(const std::string& plane) {
+    const std::size_t dot = plane.rfind('.');
+    if (dot == std::string::npos) return plane;
+    std::string name = plane;
+    name[dot + 1] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[dot + 1])));
+    return name;
+}
+
+/// "name.ext", or "name.0007.ext" in a sequence.
+fs::path file_name(const char* stem, const char* extension, std::optional<int> frame) {
+    return frame ? fmt::format("{}.{:04d}.{}", stem, *frame, extension) : fmt::format("{}.{}", stem, extension);
+}
+
+Metadata provenance(const Scene& scene, const GBufferReader& reader, bool passthrough) {
+    Metadata metadata = passthrough ? reader.metadata() : Metadata();
+    metadata.set("Software", "wrinkle");
+    metadata.set("wrinkle/gbuffer", reader.path().filename().string());
+    if (!scene.file.empty()) metadata.set("wrinkle/scene", scene.file.filename().string());
+    std::string layers;
+    for (const Layer& layer : scene.layers) layers += (layers.empty() ? "" : ", ") + layer.name;
+    metadata.set("wrinkle/layers", layers);
+    return metadata;
+}
+
+}  // namespace
+
+FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
+                           const fs::path& directory, std::optional<int> frame) {
+    std::error_code failed;
+    fs::create_directories(directory, failed);
+    if (failed) throw Error(fmt::format("cannot make the output folder {}: {}", directory.string(), failed.message()));
+    const Output& output = scene.output;
+    const Metadata metadata = provenance(scene, reader, output.passthrough);
+    const auto add = [&](const fs::path& name, std::vector<std::string> planes, std::vector<std::string> channels,
+                         PngEncoding encoding) {
+        ImageOptions options{
+            .half = output.half, .metadata = metadata, .png = encoding, .exposure = scene.lighting.exposure};
+        const fs::path path = directory / name;
+        files_.push_back(
+            {path, std::move(planes), ImageWriter(path, pass.size, std::move(channels), std::move(options))});
+    };
+
+    std::vector<std::string> planes, channels;
+    for (const std::string& plane : pass.plan.outputs) {
+        if (plane.starts_with("lit.")) continue;
+        planes.push_back("out:" + plane);
+        channels.push_back(channel_name(plane));
+    }
+    if (output.passthrough) {
+        for (const std::string& channel : reader.channels()) {
+            if (std::ranges::find(channels, channel) != channels.end()) continue;  // ours replaces it
+            passed_.push_back("channel:" + channel);
+            planes.push_back(passed_.back());
+            channels.push_back(channel);
+        }
+    }
+    add(file_name("normal", "exr", frame), planes, channels, PngEncoding::linear);
+    if (output.png)
+        add(file_name("normal", "png", frame), {"out:normal.x", "out:normal.y", "out:normal.z"}, {"R", "G", "B"},
+            PngEncoding::normal);
+    if (scene.lighting.relight == Relight::off) return;
+    const std::vector<std::string> lit{"out:lit.r", "out:lit.g", "out:lit.b"}, colors{"R", "G", "B"};
+    add(file_name("lit", "exr", frame), lit, colors, PngEncoding::linear);
+    if (output.png) add(file_name("lit", "png", frame), lit, colors, PngEncoding::srgb);
+}
+
+void FrameOutputs::write(std::uint32_t begin, std::uint32_t end, const std::map<std::string, const float*>& planes) {
+    for (File& file : files_) {
+        std::vector<const float*> rows;
+        for (const std::string& plane : file.planes) rows.push_back(planes.at(plane));
+        file.writer.write_rows(begin, end, rows);
+    }
+}
+
+void FrameOutputs::finish(std::vector<fs::path>& files) {
+    for (File& file : files_) {
+        file.writer.finish();
+        files.push_back(file.path);
+    }
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/gbuffer_reader.h"
+#include "io/image_writer.h"
+#include "run/pass_impl.h"
+
+namespace wrinkle {
+
+/// The files that one frame becomes: normal.exr (with what else the scene wants), normal.png, lit.exr, lit.png; a frame
+/// number goes before the extension. Nothing is seen under these names before finish().
+class FrameOutputs {
+public:
+    FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
+                 const std::filesystem::path& directory, std::optional<int> frame);
+
+    /// Planes of the input that go into the output untouched.
+    const std::vector<std::string>& passed_planes() const { return passed_; }
+
+    /// Rows from planes by name: inputs as they are called, outputs as "out:NAME".
+    void write(std::uint32_t begin, std::uint32_t end, const std::map<std::string, const float*>& planes);
+
+    void finish(std::vector<std::filesystem::path>& files);
+
+private:
+    struct File {
+        std::filesystem::path path;
+        std::vector<std::string> planes;
+        ImageWriter writer;
+    };
+
+    std::vector<File> files_;
+    std::vector<std::string> passed_;
+};
+
+}  // namespace wrinkle
