@@ -88,7 +88,7 @@ std::string neighbour_helper(const Emitter& emitter, const GeometryText& geometr
     const std::string load = "wr_load_near({}, at, pixels)";
     std::string text =
         "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated.\n"
-        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
+        "wr_long_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
         neighbour_planes(geometry, object, true) + ")\n{\n";
     text += load_normal(load, "    ") + load_geometry(geometry, load, "    ");
     text += fmt::format(
