@@ -1,0 +1,123 @@
+#pragma once
+
+#include "run/frame_constants.h"
+#include "tests/cases/cases.h"
+#include "tests/reference/height_slope.h"
+
+namespace wrinkle::cases {
+
+constexpr double height_slope_absolute = 2e-5;  // heights per texel
+
+using reference::Address;
+using Pyramid = reference::Pyramid<real>;
+
+/// Textures as kernels find them: rows with a border texel on each side, a border row below and above, by level.
+struct TextureCases {
+    Cases cases;
+    std::vector<double> numbers;  ///< each row's first texture: heights, then slopes
+    std::vector<float> texels;
+    std::vector<std::uint32_t> table;
+
+    /// `texel(level, channel, x, y)` may be asked one texel beyond the level.
+    template <class Texel>
+    void add_texture(const Pyramid& pyramid, int channels, const Texel& texel) {
+        const std::size_t words = table.size();
+        table.resize(words + WR_TEXTURE_WORDS);
+        table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(pyramid.levels[0].width);
+        table[words + WR_TEXTURE_HEIGHT] = static_cast<std::uint32_t>(pyramid.levels[0].height);
+        table[words + WR_TEXTURE_LEVELS] = static_cast<std::uint32_t>(pyramid.levels.size());
+        if (texels.size() < 4) texels.resize(4);
+        for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+            texels.resize(texels.size() - 4);  // the last pair of a row may be read as four floats
+            table[words + WR_TEXTURE_OFFSETS + l] = static_cast<std::uint32_t>(texels.size());
+            for (int y = -1; y <= pyramid.levels[l].height; ++y)
+                for (int x = -1; x <= pyramid.levels[l].width; ++x)
+                    for (int c = 0; c < channels; ++c)
+                        texels.push_back(static_cast<float>(texel(pyramid.levels[l], c, x, y)));
+            texels.resize(texels.size() + 4);
+        }
+    }
+
+    /// The heights, and their Sobel slopes per unit of texture coordinate.
+    void add_heights(const Pyramid& height, Address wrap) {
+        add_texture(height, 1, [&](const auto& level, int, int x, int y) { return level.at(0, x, y, wrap); });
+        add_texture(height, 2, [&](const auto& level, int c, int x, int y) {
+            const V2 d = reference::sobel(level, x, y, wrap);
+            return c == 0 ? d.x * level.width : d.y * level.height;
+        });
+    }
+};
+
+/// Slopes are compared per texel of the finest level.
+inline V2 per_texel(V2 slope, const Pyramid& height) {
+    return {slope.x / height.levels[0].width, slope.y / height.levels[0].height};
+}
+
+inline std::map<std::string, Pyramid> golden_textures() {
+    const GoldenTable table = reference::golden("listing16_textures");
+    std::map<std::string, Pyramid> textures;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        reference::Level<real> level{std::stoi(table.text(i, "w")), std::stoi(table.text(i, "h")), {}};
+        const std::vector<std::string>& cells = table.cells(i);
+        for (std::size_t k = 4; k < cells.size(); ++k) level.texels.push_back(std::strtod(cells[k].c_str(), nullptr));
+        textures[table.text(i, "tex")].levels.push_back(level);
+    }
+    return textures;
+}
+
+/// Listing 16, repeated: the lod; slopes at that lod and at `lod_in`, which are rows of their own.
+inline TextureCases height_slope_cases() {
+    TextureCases out{{.name = "listing16_deriv_from_heightmap"}, {}, {}, {}};
+    Cases& c = out.cases;
+    const GoldenTable table = reference::golden("listing16_deriv_from_heightmap");
+    const auto textures = golden_textures();
+    std::map<std::string, double> number;
+    for (const auto& [name, height] : textures) {
+        number[name] = static_cast<double>(2 * number.size());
+        out.add_heights(height, Address::repeat);
+    }
+    for (std::size_t i = 0; i < table.size(); ++i)
+        for (const bool given : {false, true}) {
+            const auto found = textures.find(table.text(i, "tex"));
+            if (found == textures.end()) continue;
+            const Pyramid& height = found->second;
+            const real last = real(height.levels.size() - 1);
+            const real lod = given ? std::clamp<real>(table.number(i, "lod_in"), 0, last) : table.number(i, "want_lod");
+            const V2 st = table.vec2(i, "st");
+            add_golden_row(c, table, i, {});
+            out.numbers.push_back(number[found->first]);
+            c.in("st", st), c.in("dSTdx", table.vec2(i, "dSTdx")), c.in("dSTdy", table.vec2(i, "dSTdy"));
+            c.in("lod", lod);
+            c.out("lod", real{table.number(i, "want_lod")});
+            c.out("plain", given ? reference::plain_slope_per_texel(height, st, lod, Address::repeat)
+                                 : table.vec2(i, "want_d0"));
+            c.out("smooth", per_texel(reference::smooth_slope(height, st, lod, Address::repeat), height));
+        }
+    return out;
+}
+
+/// The same clamped, on a picture of odd size, also at its edges and corners.
+inline TextureCases clamped_slope_cases() {
+    TextureCases out{{.name = "clamped height slopes"}, {}, {}, {}};
+    Cases& c = out.cases;
+    Random texels(7);
+    reference::Level<real> top{13, 7, {}};
+    for (int i = 0; i < 13 * 7; ++i) top.texels.push_back(texels.uniform(0, 1));
+    const Pyramid height = reference::build_pyramid(top, 1);
+    out.add_heights(height, Address::clamp);
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        Random random(seed);
+        V2 st{random.uniform(0, 1), random.uniform(0, 1)};
+        if (seed % 5 == 0) st.x = real(random.below(2));
+        if (seed % 7 == 0) st.y = real(random.below(2));
+        const real lod = seed % 3 == 0 ? real(random.below(4)) : random.uniform(0, 3);
+        c.add("clamped slope, seed " + std::to_string(seed), seed % 5 == 0 || seed % 7 == 0);
+        out.numbers.push_back(0);
+        c.in("st", st), c.in("lod", lod);
+        c.out("plain", reference::plain_slope_per_texel(height, st, lod, Address::clamp));
+        c.out("smooth", per_texel(reference::smooth_slope(height, st, lod, Address::clamp), height));
+    }
+    return out;
+}
+
+}  // namespace wrinkle::cases

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "run/frame_constants.h"
+#include "tests/cases/cases.h"
+#include "tests/reference/lighting.h"
+
+namespace wrinkle::cases {
+
+constexpr double lighting_relative = 1e-6, smooth_lighting_relative = 1e-4;
+
+/// A surface under a sun, a point and a spot light; one wr_lighting and its lights.
+struct LightingCases {
+    Cases cases;
+    std::vector<double> constants;
+};
+
+inline Lighting test_lighting() {
+    Lighting lighting;
+    lighting.ambient = {0.125, 0.25, 0.5};
+    lighting.f0 = 0.0625;
+    lighting.lights = {{LightKind::sun, {1, 0.5, 0.25}, 2, {}, {0, 0, -1}, 0, 0},
+                       {LightKind::point, {0.5, 1, 1}, 8, {2, -1, 3}, {0, 0, -1}, 0, 0},
+                       {LightKind::spot, {1, 1, 0.5}, 16, {-2, 1, 4}, {0, 0, -1}, 0.25, 0.75}};
+    return lighting;
+}
+
+/// Regular: rough surfaces. Hard: highlights of smooth ones, grazing views, surfaces at a light or behind all.
+inline LightingCases lighting_cases() {
+    LightingCases out{{.name = "lighting"}, {}};
+    Cases& c = out.cases;
+    const Lighting lighting = test_lighting();
+    const Camera at_origin{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
+                           {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, -0.5}, {0, 0, -1, 0}}}};
+    const FrameConstants constants = frame_constants({}, lighting, at_origin, {8, 8});
+    const double *first = constants.lighting.ambient, *light = &constants.lights[0].kind;
+    out.constants.assign(first, first + sizeof(wr_lighting) / sizeof(double));
+    out.constants.insert(out.constants.end(), light,
+                         light + constants.lights.size() * sizeof(wr_light) / sizeof(double));
+    for (unsigned seed = 1; seed <= 400; ++seed) {
+        Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const V p = hard && seed % 10 == 0 ? Random::rounded(V{2, -1, 3} + random.unit() * random.magnitude(-6, 0))
+                                           : random.box(4);
+        V v = random.unit(), n = random.unit();
+        if (hard && seed % 3 == 0)  // the mirror direction of the sun, or near it
+            n = Random::rounded(normalize(normalize(v + V{0, 0, 1}) + random.unit() * random.magnitude(-5, -1)));
+        if (hard && seed % 3 == 1) v = Random::rounded(normalize(cross(n, v) + n * random.magnitude(-7, -2)));
+        const reference::Surface<real> surface{
+            {0.5L, 0.25L, 0.75L}, hard ? random.uniform(0, 0.3L) : random.uniform(0.3L, 1), 0.0625L};
+        c.add("lighting, seed " + std::to_string(seed), hard);
+        c.in("p", p), c.in("n", n), c.in("v", v), c.in("roughness", surface.roughness);
+        c.out("lit", reference::lit(lighting, normalize(n), normalize(v), p, surface));
+    }
+    return out;
+}
+
+}  // namespace wrinkle::cases

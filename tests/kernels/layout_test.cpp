@@ -1,0 +1,90 @@
+// layout.h: the host's structs and the device's have the same members in the same places.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "run/frame_constants.h"
+#include "tests/kernels/kernel_function.h"
+
+namespace wrinkle::test {
+namespace {
+
+/// A member as kernel text, and what the host finds in it when number i of the struct is i + 1.
+struct Member {
+    std::string text;
+    double value;
+};
+
+template <class Struct>
+Struct counted() {
+    Struct s;
+    std::vector<double> numbers(sizeof(Struct) / sizeof(double));
+    std::iota(numbers.begin(), numbers.end(), 1);
+    std::memcpy(&s, numbers.data(), sizeof s);
+    return s;
+}
+
+template <std::size_t n>
+void add(std::vector<Member>& members, const std::string& name, const double (&values)[n]) {
+    for (std::size_t k = 0; k < n; ++k) members.push_back({fmt::format("s->{}[{}]", name, k), values[k]});
+}
+void add(std::vector<Member>& members, const std::string& name, double value) {
+    members.push_back({"s->" + name, value});
+}
+
+#define MEMBER(m) add(members, #m, s.m)
+
+/// Reads every member on the device, as float and as double, from constant and from global memory.
+void check_layout(const std::string& type, const std::vector<Member>& members, std::size_t size) {
+    ASSERT_EQ(members.size() * sizeof(double), size) << type << ": a member is not named in this test";
+    KernelData data;
+    data.constants.resize(size / sizeof(double));
+    std::iota(data.constants.begin(), data.constants.end(), 1);
+    data.records = data.constants;
+    for (const char* memory : {"constant", "global"})
+        for (const bool fp64 : {false, true}) {
+            KernelFunction f;
+            f.body = fmt::format("{0} const {1} *s = ({0} const {1} *){2};", memory, type,
+                                 std::string(memory) == "constant" ? "constants" : "records");
+            f.outputs = {fmt::format("(real)(sizeof({}) / sizeof(WR_SCALAR))", type)};
+            for (const Member& m : members) f.outputs.push_back(fmt::format("(real)({})", m.text));
+            const Results r = run_kernel(f, {{"nothing", {0}}}, {8, fp64}, data);
+            EXPECT_EQ(r[0][0], static_cast<double>(members.size())) << type;
+            for (std::size_t i = 0; i < members.size(); ++i)
+                EXPECT_EQ(r[i + 1][0], members[i].value) << type << ", " << members[i].text << ", " << memory;
+        }
+}
+
+TEST(Layout, Frame) {
+    const auto s = counted<wr_frame>();
+    std::vector<Member> members;
+    MEMBER(width), MEMBER(height), MEMBER(eye_high), MEMBER(eye_low), MEMBER(d0), MEMBER(dx), MEMBER(dy);
+    MEMBER(dx_cross_d0), MEMBER(dx_cross_dy), MEMBER(dy_cross_d0), MEMBER(dy_cross_dx);
+    MEMBER(c0), MEMBER(c1), MEMBER(c2), MEMBER(c3), MEMBER(w), MEMBER(forward);
+    check_layout("wr_frame", members, sizeof s);
+}
+
+TEST(Layout, Decal) {
+    const auto s = counted<wr_decal>();
+    std::vector<Member> members;
+    MEMBER(center), MEMBER(to_box_x), MEMBER(to_box_y), MEMBER(to_box_z), MEMBER(gradient_s), MEMBER(gradient_t);
+    MEMBER(axis_z), MEMBER(falloff), MEMBER(fade_zero), MEMBER(fade_slope), MEMBER(texture);
+    check_layout("wr_decal", members, sizeof s);
+}
+
+TEST(Layout, Light) {
+    const auto s = counted<wr_light>();
+    std::vector<Member> members;
+    MEMBER(kind), MEMBER(color), MEMBER(position), MEMBER(to_light), MEMBER(cos_inner), MEMBER(cos_outer);
+    check_layout("wr_light", members, sizeof s);
+}
+
+TEST(Layout, Lighting) {
+    const auto s = counted<wr_lighting>();
+    std::vector<Member> members;
+    MEMBER(ambient), MEMBER(albedo), MEMBER(roughness), MEMBER(f0), MEMBER(max_ratio), MEMBER(lights);
+    check_layout("wr_lighting", members, sizeof s);
+}
+
+}  // namespace
+}  // namespace wrinkle::test

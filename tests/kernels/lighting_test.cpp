@@ -1,0 +1,62 @@
+// shade/lighting.clh
+#include "tests/cases/lighting.h"
+
+#include "tests/kernels/check.h"
+
+namespace wrinkle::test {
+namespace {
+
+const std::string light_it =
+    "constant const wr_lighting *lighting = (constant const wr_lighting *)constants;\n"
+    "constant const wr_light *lights = (constant const wr_light *)(lighting + 1);\n"
+    "vec3 albedo = wr_v3((real)(0.5f), (real)(0.25f), (real)(0.75f));\n"
+    "vec3 lit = wr_light_surface(p, unit(n), unit(v), albedo, roughness, lighting, lights);";
+
+TEST(Lighting, RadianceOfThreeLights) {
+    cases::LightingCases c = cases::lighting_cases();
+    KernelData data;
+    data.constants = std::move(c.constants);
+    check(c.cases, {"shade/lighting.clh"}, light_it,
+          {{"lit", xyz("lit"), Metric::relative, cases::lighting_relative, cases::smooth_lighting_relative, 1e-11}},
+          data, INFINITY);
+}
+
+TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
+    cases::LightingCases c = cases::lighting_cases();
+    const float z = 1, far = 1e20f, near = 1e-20f;
+    const Columns columns{{"p.x", {2, 2 + 1e-6f, far, near, 2}},
+                          {"p.y", {-1, -1, far, near, -1}},
+                          {"p.z", {3, 3, far, near, 3}},
+                          {"n.x", {0, 0, 0, 0, 1}},
+                          {"n.y", {0, 0, 0, 0, 0}},
+                          {"n.z", {z, -z, z, z, 0}},
+                          {"v.x", {0, 0, 0, 0, 0}},
+                          {"v.y", {0, 0, 0, 0, 0}},
+                          {"v.z", {z, -z, z, -z, -z}},
+                          {"roughness", {0, 0, 1, 0, 0}}};
+    KernelData data;
+    data.constants = std::move(c.constants);
+    for (const int lanes : {1, 4, 8, 16}) {
+        const Results r = run_kernel({{"shade/lighting.clh"}, light_it, xyz("lit")}, columns, {lanes, false}, data);
+        for (const auto& channel : r)
+            for (std::size_t i = 0; i < channel.size(); ++i)
+                EXPECT_TRUE(std::isfinite(channel[i])) << "row " << i << ", " << lanes << " lanes";
+    }
+}
+
+TEST(Lighting, RatioIsBounded) {
+    cases::Cases c{.name = "relight ratio"};
+    for (const real now : {0.0L, 1e-6L, 0.1L, 1.0L, 1e4L, 3e38L})
+        for (const real old : {0.0L, 1e-6L, 0.3L, 1.0L, 1e4L, 3e38L}) {
+            c.add(fmt::format("ratio of {} and {}", double(now), double(old)), true);
+            c.in("now", now), c.in("old", old);
+            c.out("ratio", reference::relight_ratio<real>(1, static_cast<float>(now), static_cast<float>(old), 4));
+        }
+    KernelData data;
+    data.constants = {4};
+    check(c, {"shade/lighting.clh"}, "real ratio = wr_relight_ratio(now, old, constants[0]);",
+          {{"ratio", {"ratio"}, Metric::relative, 0, 5e-7}}, data);
+}
+
+}  // namespace
+}  // namespace wrinkle::test

@@ -1,0 +1,61 @@
+// compose/mask.clh
+#include "tests/reference/mask.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/kernels/kernel_function.h"
+
+namespace wrinkle::test {
+namespace {
+
+constexpr int all_lanes[] = {1, 4, 8, 16};
+const std::vector<std::string> includes{"compose/mask.clh"};
+
+TEST(Mask, ObjectIndex) {
+    const Columns columns{{"object", {3, 0, -3, 3.5f, NAN, INFINITY, 3, 16777216.0f}}};
+    for (const int lanes : all_lanes) {
+        const Results r = run_kernel({includes, "", {"wr_mask_object(object, 3)", "wr_mask_object(object, 16777216)"}},
+                                     columns, {lanes, false});
+        EXPECT_EQ(r[0], (std::vector<double>{1, 0, 0, 0, 0, 0, 1, 0})) << lanes << " lanes";
+        EXPECT_EQ(r[1], (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 1})) << lanes << " lanes";
+    }
+}
+
+/// Ids are bits: NaN ids match themselves, -0 is not 0, a denormal id is not flushed.
+TEST(Mask, CryptomatteComparesBits) {
+    const std::uint32_t ids[] = {0x3f800000u,
+                                 0x7fc00001u,
+                                 0x80000000u,
+                                 0x00000000u,
+                                 0x00000001u,
+                                 0xff800000u,
+                                 reference::cryptomatte_bits("Rock"),
+                                 reference::cryptomatte_bits("rock")};
+    Columns columns;
+    for (const std::uint32_t id : ids) {
+        columns["id"].push_back(std::bit_cast<float>(id));
+        columns["coverage"].push_back(0.75f);
+    }
+    std::vector<std::string> outputs;
+    for (const std::uint32_t wanted : ids)
+        outputs.push_back(fmt::format("wr_mask_cryptomatte(wr_load_floats(in_id, at), coverage, {}u)", wanted));
+    for (const int lanes : all_lanes) {
+        const Results r = run_kernel({includes, "", outputs}, columns, {lanes, false});
+        for (std::size_t k = 0; k < std::size(ids); ++k)
+            for (std::size_t i = 0; i < std::size(ids); ++i)
+                EXPECT_EQ(r[k][i], i == k ? 0.75 : 0)
+                    << fmt::format("id {:08x}, wanted {:08x}, {} lanes", ids[i], ids[k], lanes);
+    }
+}
+
+TEST(Mask, ChannelIsClampedAndNanIsNothing) {
+    const Columns columns{{"value", {-1, 0, 0.25f, 1, 7, NAN, INFINITY, -INFINITY, -0.0f}}};
+    for (const bool fp64 : {false, true})
+        for (const int lanes : all_lanes)
+            EXPECT_EQ(run_kernel({includes, "", {"wr_mask_channel(value)"}}, columns, {lanes, fp64})[0],
+                      (std::vector<double>{0, 0, 0.25, 1, 1, 0, 1, 0, 0}))
+                << lanes << " lanes";
+}
+
+}  // namespace
+}  // namespace wrinkle::test

@@ -1,0 +1,43 @@
+// sources/noise_table.clh: the packed tables hold the permutation and the gradients of the 2002 paper.
+#include <gtest/gtest.h>
+
+#include "tests/kernels/kernel_function.h"
+#include "tests/reference/noise.h"
+
+namespace wrinkle::test {
+namespace {
+
+using reference::perlin_permutation;
+
+std::vector<float> count(int n) {
+    std::vector<float> v;
+    for (int i = 0; i < n; ++i) v.push_back(static_cast<float>(i));
+    return v;
+}
+
+TEST(NoiseTable, HashHoldsNeighboursOfThePermutation) {
+    const Results r = run_kernel({{"sources/noise_table.clh"},
+                                  "ushort entry = wr_perlin_hash[(int)i];",
+                                  {"(real)(entry & 255)", "(real)(entry >> 8)"}},
+                                 {{"i", count(512)}}, {1, false});
+    for (std::size_t i = 0; i < 512; ++i) {
+        EXPECT_EQ(r[0][i], perlin_permutation[i & 255]) << i;
+        EXPECT_EQ(r[1][i], perlin_permutation[(i + 1) & 255]) << i;
+    }
+}
+
+TEST(NoiseTable, GradientsAreTheDirectionsOfTheHash) {
+    const Results r = run_kernel({{"sources/noise_table.clh", "sources/noise.clh"},
+                                  "vec3 g = wr_perlin_corner((index)((int)wr_perlin_gradient[(int)i]));",
+                                  {"g.x", "g.y", "g.z"}},
+                                 {{"i", count(514)}}, {1, false});
+    for (std::size_t i = 0; i < 514; ++i) {
+        const auto want = reference::perlin_direction<double>(perlin_permutation[i & 255]);
+        EXPECT_EQ(r[0][i], want.x) << i;
+        EXPECT_EQ(r[1][i], want.y) << i;
+        EXPECT_EQ(r[2][i], want.z) << i;
+    }
+}
+
+}  // namespace
+}  // namespace wrinkle::test
