@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wrinkle/camera.h"
+#include "wrinkle/scene.h"
+
+/// The same layers as a good programmer writes them in plain C++ from the listings of [Mik20]: float, float3 structs,
+/// one pixel at a time, OpenMP over rows, -O3 -march=native -ffast-math. The clamps and forms are the published ones.
+/// It is what the kernels must beat, so whatever costs nothing in clarity is done: constants per scene, slopes instead
+/// of texels, padded mips, no work where a mask is zero. It is not vectorised by hand.
+namespace wrinkle::baseline {
+
+struct Image {
+    int width = 0, height = 0, channels = 0;
+    std::vector<float> texels;  ///< rows bottom first, channels interleaved, [0,1]
+};
+
+/// Planes by name as in wrinkle/gbuffer.h, one float per pixel.
+using PlaneMap = std::map<std::string, std::span<const float>>;
+
+class Evaluator {
+public:
+    /// Prepares everything that does not depend on the pixels. `textures` by the file names used in the scene,
+    /// `cryptomatte` by object name; "#" and 8 hex digits need no entry. Throws Error for what is missing.
+    Evaluator(const Scene& scene, Size size, const Camera& camera,
+              const std::map<std::filesystem::path, Image>& textures,
+              const std::map<std::string, std::uint32_t>& cryptomatte = {});
+    ~Evaluator();
+    Evaluator(Evaluator&&) noexcept;
+    Evaluator& operator=(Evaluator&&) noexcept;
+
+    /// New normals of a frame. `depth` of automatic kind is planar. Throws Error for a missing or misshapen plane.
+    void run(const PlaneMap& planes, std::span<float> nx, std::span<float> ny, std::span<float> nz) const;
+
+private:
+    struct Prepared;
+    std::unique_ptr<const Prepared> prepared_;
+};
+
+struct ConstPlanes {
+    std::span<const float> x, y, z;
+};
+struct Planes {
+    std::span<float> x, y, z;
+};
+
+/// out = normalize(n - g): 24 bytes read and 12 written per pixel, and hardly any arithmetic.
+void resolve(ConstPlanes n, ConstPlanes g, Planes out);
+
+/// The memory ceiling: 12 bytes read and 12 written per pixel.
+void copy(ConstPlanes in, Planes out);
+
+}  // namespace wrinkle::baseline

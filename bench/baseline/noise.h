@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+
+#include "vec.h"
+
+namespace wrinkle::baseline {
+
+struct NoiseSample {
+    float value = 0;
+    float3 gradient;
+};
+
+inline constexpr std::array<std::uint8_t, 256> permutation{
+    151, 160, 137, 91,  90,  15,  131, 13,  201, 95,  96,  53,  194, 233, 7,   225, 140, 36,  103, 30,  69,  142,
+    8,   99,  37,  240, 21,  10,  23,  190, 6,   148, 247, 120, 234, 75,  0,   26,  197, 62,  94,  252, 219, 203,
+    117, 35,  11,  32,  57,  177, 33,  88,  237, 149, 56,  87,  174, 20,  125, 136, 171, 168, 68,  175, 74,  165,
+    71,  134, 139, 48,  27,  166, 77,  146, 158, 231, 83,  111, 229, 122, 60,  211, 133, 230, 220, 105, 92,  41,
+    55,  46,  245, 40,  244, 102, 143, 54,  65,  25,  63,  161, 1,   216, 80,  73,  209, 76,  132, 187, 208, 89,
+    18,  169, 200, 196, 135, 130, 116, 188, 159, 86,  164, 100, 109, 198, 173, 186, 3,   64,  52,  217, 226, 250,
+    124, 123, 5,   202, 38,  147, 118, 126, 255, 82,  85,  212, 207, 206, 59,  227, 47,  16,  58,  17,  182, 189,
+    28,  42,  223, 183, 170, 213, 119, 248, 152, 2,   44,  154, 163, 70,  221, 153, 101, 155, 167, 43,  172, 9,
+    129, 22,  39,  253, 19,  98,  108, 110, 79,  113, 224, 232, 178, 185, 112, 104, 218, 246, 97,  228, 251, 34,
+    242, 193, 238, 210, 144, 12,  191, 179, 162, 241, 81,  51,  145, 235, 249, 14,  239, 107, 49,  192, 214, 31,
+    181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114,
+    67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
+
+/// grad() of the reference implementation as a table, already looked up through the permutation.
+struct NoiseTables {
+    std::array<std::uint8_t, 512> p{};
+    std::array<float3, 512> gradient{};
+    constexpr NoiseTables() {
+        constexpr float g[16][3] = {{1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
+                                    {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
+                                    {1, 1, 0},  {0, -1, 1},  {-1, 1, 0}, {0, -1, -1}};
+        for (std::size_t i = 0; i < 512; ++i) {
+            p[i] = permutation[i & 255U];
+            const float* row = g[p[i] & 15U];
+            gradient[i] = {row[0], row[1], row[2]};
+        }
+    }
+};
+inline constexpr NoiseTables noise_tables;
+
+inline float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+inline float fade_slope(float t) { return 30 * t * t * (t * (t - 2) + 1); }
+
+/// Perlin 2002 with its analytic gradient. A caller that drops the value does not pay for it: this is inlined.
+inline NoiseSample perlin_noise(float3 p) {
+    const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
+    const int cx = static_cast<int>(fx) & 255, cy = static_cast<int>(fy) & 255, cz = static_cast<int>(fz) & 255;
+    const float x = p.x - fx, y = p.y - fy, z = p.z - fz;
+    const float u = fade(x), v = fade(y), w = fade(z);
+    const auto& perm = noise_tables.p;
+    const int a = perm[cx] + cy, b = perm[cx + 1] + cy;
+    const int aa = perm[a] + cz, ab = perm[a + 1] + cz, ba = perm[b] + cz, bb = perm[b + 1] + cz;
+    const auto& g = noise_tables.gradient;
+    const float3 g000 = g[aa], g100 = g[ba], g010 = g[ab], g110 = g[bb];
+    const float3 g001 = g[aa + 1], g101 = g[ba + 1], g011 = g[ab + 1], g111 = g[bb + 1];
+    const float n000 = dot(g000, {x, y, z}), n100 = dot(g100, {x - 1, y, z});
+    const float n010 = dot(g010, {x, y - 1, z}), n110 = dot(g110, {x - 1, y - 1, z});
+    const float n001 = dot(g001, {x, y, z - 1}), n101 = dot(g101, {x - 1, y, z - 1});
+    const float n011 = dot(g011, {x, y - 1, z - 1}), n111 = dot(g111, {x - 1, y - 1, z - 1});
+
+    // Interpolated gradients, plus the slope of the weights times the differences of the corner values.
+    const float3 mean =
+        lerp(lerp(lerp(g000, g100, u), lerp(g010, g110, u), v), lerp(lerp(g001, g101, u), lerp(g011, g111, u), v), w);
+    const float n00 = lerp(n000, n100, u), n10 = lerp(n010, n110, u);
+    const float n01 = lerp(n001, n101, u), n11 = lerp(n011, n111, u);
+    const float n0 = lerp(n00, n10, v), n1 = lerp(n01, n11, v);
+    const float along_x = lerp(lerp(n100 - n000, n110 - n010, v), lerp(n101 - n001, n111 - n011, v), w);
+    const float along_y = lerp(n10 - n00, n11 - n01, w);
+    return {lerp(n0, n1, w),
+            mean + float3{fade_slope(x) * along_x, fade_slope(y) * along_y, fade_slope(z) * (n1 - n0)}};
+}
+
+}  // namespace wrinkle::baseline

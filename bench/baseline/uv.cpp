@@ -1,0 +1,130 @@
+#include "uv.h"
+
+#include <algorithm>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle::baseline {
+
+UvTransform::UvTransform(const UvMapping& mapping, const CameraTerms& camera)
+    : planar(mapping.source == UvSource::planar) {
+    const double c = std::cos(mapping.rotation), s = std::sin(mapping.rotation);
+    const double m[2][2] = {{c * mapping.scale[0], -s * mapping.scale[1]},
+                            {s * mapping.scale[0], c * mapping.scale[1]}};
+    double constant[2] = {mapping.offset[0], mapping.offset[1]};
+    row_s = {static_cast<float>(m[0][0]), static_cast<float>(m[0][1])};
+    row_t = {static_cast<float>(m[1][0]), static_cast<float>(m[1][1])};
+    Vec3 axes[2]{};
+    const Vec3 eye{camera.eye.x, camera.eye.y, camera.eye.z};
+    for (int i = 0; i < 2; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            axes[i][k] = m[i][0] * mapping.axis_u[k] + m[i][1] * mapping.axis_v[k];
+            if (planar) constant[i] += axes[i][k] * eye[k];
+        }
+    }
+    axis_s = to_float3(axes[0]);
+    axis_t = to_float3(axes[1]);
+    offset = {static_cast<float>(constant[0]), static_cast<float>(constant[1])};
+}
+
+UvDerivatives uv_derivatives(const Frame& frame) {
+    if (frame.uv[0] == nullptr)
+        throw Error("baseline: a layer needs texture coordinates, but there are no planes uv.u .v");
+    if (frame.duv_dx[0] != nullptr && frame.duv_dy[0] != nullptr) return UvDerivatives::planes;
+    if (frame.dp_du[0] != nullptr && frame.dp_dv[0] != nullptr) return UvDerivatives::tangents;
+    return UvDerivatives::neighbours;
+}
+
+RowWindow::RowWindow(const Frame& frame) : frame_(frame) {
+    for (auto& row : rows_) row.resize(static_cast<std::size_t>(frame.width));
+}
+
+void RowWindow::move_to(int y) {
+    const int from = std::max(0, y - 1), to = std::min(frame_.height - 1, y + 1);
+    for (int row = from; row <= to; ++row) {
+        if (row >= first_ && row <= last_) continue;
+        for (int x = 0; x < frame_.width; ++x) rows_[(row + 3) % 3][x] = frame_.decode(x, row);
+    }
+    first_ = from;
+    last_ = to;
+}
+
+namespace {
+
+/// Least squares of dp = a dp_du + b dp_dv.
+bool tangent_derivatives(float3 dp_du, float3 dp_dv, float3 dp_dx, float3 dp_dy, Uv& out) {
+    const float uu = dot(dp_du, dp_du), uv = dot(dp_du, dp_dv), vv = dot(dp_dv, dp_dv);
+    const float det = uu * vv - uv * uv;
+    if (!(det > 0.0F)) return false;
+    const float inverse = 1.0F / det;
+    const auto solve = [&](float3 dp) {
+        const float u = dot(dp, dp_du), v = dot(dp, dp_dv);
+        return float2{inverse * (vv * u - uv * v), inverse * (uu * v - uv * u)};
+    };
+    out.dst_dx = solve(dp_dx);
+    out.dst_dy = solve(dp_dy);
+    return true;
+}
+
+/// The difference to the pixel at (x + step_x, y + step_y), if that one lies on the same surface and chart.
+bool difference(const Frame& frame, const RowWindow& window, int x, int y, int step_x, int step_y, float reach2,
+                float2 uv, float2& out) {
+    const int nx = x + step_x, ny = y + step_y;
+    if (nx < 0 || ny < 0 || nx >= frame.width || ny >= frame.height) return false;
+    const std::size_t j = frame.index(nx, ny);
+    const Decoded &pixel = window.at(x, y), &other = window.at(nx, ny);
+    if (!other.valid || dot(pixel.n, other.n) <= 0.5F) return false;
+    if (frame.object != nullptr && frame.object[j] != frame.object[frame.index(x, y)]) return false;
+    const float3 step = other.p - pixel.p;
+    if (dot(step, step) > reach2) return false;
+    const float2 uv_j = at(frame.uv, j);
+    if (!finite(uv_j.x) || !finite(uv_j.y)) return false;
+    const float sign = static_cast<float>(step_x + step_y);
+    out = sign * (uv_j - uv);
+    return std::abs(out.x) < 0.5F && std::abs(out.y) < 0.5F;
+}
+
+bool axis_derivative(const Frame& frame, const RowWindow& window, int x, int y, int step_x, int step_y, float3 dp,
+                     float2 uv, float2& out) {
+    const float reach2 = 16.0F * dot(dp, dp);
+    float2 forward, backward;
+    const bool has_forward = difference(frame, window, x, y, step_x, step_y, reach2, uv, forward);
+    const bool has_backward = difference(frame, window, x, y, -step_x, -step_y, reach2, uv, backward);
+    if (!has_forward && !has_backward) return false;
+    if (!has_forward || !has_backward) {
+        out = has_forward ? forward : backward;
+        return true;
+    }
+    const float f2 = dot(forward, forward), b2 = dot(backward, backward);
+    if (std::fmax(f2, b2) > 4.0F * std::fmin(f2, b2)) {
+        out = f2 < b2 ? forward : backward;
+    } else {
+        out = 0.5F * (forward + backward);
+    }
+    return true;
+}
+
+}  // namespace
+
+/// Texture coordinates belong to the surface: whichever stage asks, dp_dx and dp_dy are those of the base normal.
+bool aov_uv(const Frame& frame, UvDerivatives kind, const RowWindow& window, int x, int y, Uv& out) {
+    const std::size_t i = frame.index(x, y);
+    out.st = at(frame.uv, i);
+    if (!finite(out.st.x) || !finite(out.st.y)) return false;
+    if (kind == UvDerivatives::planes) {
+        out.dst_dx = at(frame.duv_dx, i);
+        out.dst_dy = at(frame.duv_dy, i);
+        return finite(out.dst_dx.x) && finite(out.dst_dx.y) && finite(out.dst_dy.x) && finite(out.dst_dy.y);
+    }
+    if (kind == UvDerivatives::tangents) {
+        const Decoded pixel = frame.decode(x, y);
+        const ScreenDerivatives d = frame.screen_derivatives_at(x, y, pixel.p, pixel.n);
+        return tangent_derivatives(at(frame.dp_du, i), at(frame.dp_dv, i), d.dp_dx, d.dp_dy, out);
+    }
+    const Decoded& pixel = window.at(x, y);
+    const ScreenDerivatives d = frame.screen_derivatives_at(x, y, pixel.p, pixel.n);
+    return axis_derivative(frame, window, x, y, 1, 0, d.dp_dx, out.st, out.dst_dx) &&
+           axis_derivative(frame, window, x, y, 0, 1, d.dp_dy, out.st, out.dst_dy);
+}
+
+}  // namespace wrinkle::baseline
