@@ -1,0 +1,71 @@
+#include "error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "io/texture_file.h"
+#include "tests/reference/evaluate.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+/// Every texture a scene names, as the reference takes it.
+reference::Images reference_images(const Scene& scene) {
+    reference::Images images;
+    const auto add = [&](const std::filesystem::path& file, ImageUse use) {
+        const Image image = load_texture(file, use);
+        images[file.string()] = {image.width, image.height, image.channels, image.texels};
+    };
+    for (const Layer& layer : scene.layers) {
+        std::visit(
+            [&](const auto& bump) {
+                if constexpr (requires { bump.texture; })
+                    add(bump.texture.file,
+                        bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+            },
+            layer.bump);
+        if (layer.mask.texture) add(layer.mask.texture->file, ImageUse::scalar);
+    }
+    return images;
+}
+
+}  // namespace
+
+ReferenceSample::ReferenceSample(const Scene& scene, const BenchFrame& frame, std::size_t count, std::uint32_t seed) {
+    const reference::Images images = reference_images(scene);
+    reference::Planes planes;
+    for (const auto& [name, plane] : frame.planes) planes[name] = plane;
+    const reference::SceneEvaluator<double> evaluator(scene, frame.frame.size, frame.frame.camera, planes, images);
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<std::size_t> pick(0, frame.pixels() - 1);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = pick(random);
+        const auto e = evaluator.evaluate(i);
+        if (e.valid) pixels_.push_back({i, e.normal.x, e.normal.y, e.normal.z});
+    }
+}
+
+ErrorStats ReferenceSample::compare(const Normals& normals) const {
+    std::vector<double> degrees;
+    ErrorStats stats;
+    stats.samples = pixels_.size();
+    for (const Pixel& want : pixels_) {
+        const double x = normals.x[want.i], y = normals.y[want.i], z = normals.z[want.i];
+        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+            ++stats.not_finite;
+            continue;
+        }
+        const double cx = y * want.z - z * want.y, cy = z * want.x - x * want.z, cz = x * want.y - y * want.x;
+        degrees.push_back(std::atan2(std::hypot(cx, cy, cz), x * want.x + y * want.y + z * want.z) * 57.29577951308232);
+    }
+    if (degrees.empty()) return stats;
+    std::ranges::sort(degrees);
+    stats.median = degrees[degrees.size() / 2];
+    stats.p99 = degrees[degrees.size() * 99 / 100];
+    stats.max = degrees.back();
+    return stats;
+}
+
+}  // namespace wrinkle::bench
