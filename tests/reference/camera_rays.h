@@ -20,6 +20,7 @@ public:
         const Mat4x4<T>& p = proj_;
         const auto zero = [](T a, T b, T c) { return a == 0 && b == 0 && c == 0; };
         pinhole_ = zero(p[0][3], p[1][3], p[3][3]) && p[3][0] == 0 && p[3][1] == 0 && p[3][2] != 0;
+        parallel_ = zero(p[3][0], p[3][1], p[3][2]);
         if (pinhole_) {
             d0_ = at_depth(0, 0, 1);
             dx_ = at_depth(1, 0, 1) - d0_;
@@ -53,6 +54,12 @@ public:
     /// The eye-relative point at distance t from the eye of a pinhole camera.
     Vec<T> at_distance(T x, T y, T t) const { return normalize(at_depth(x, y, 1)) * t; }
 
+    /// Unit vector from the point p that pixel (x, y) sees towards the viewer: to the eye, or under a parallel
+    /// projection against the one direction of its rays.
+    Vec<T> view(Vec<T> p, T x, T y) const {
+        return parallel_ ? normalize(at_depth(x, y, 1) - at_depth(x, y, 2)) : normalize(-p);
+    }
+
     /// dp/dx, dp/dy per pixel right and down of the plane through p (eye-relative) perpendicular to n. For a pinhole r
     /// in p = r d is the least squares one, so that positions a little off the pixel's ray keep their distance.
     ScreenDerivative<T> derivative(Vec<T> p, Vec<T> n, T x, T y) const {
@@ -65,7 +72,7 @@ private:
     T width_, height_;
     Mat4x4<T> proj_{}, from_screen_{};
     Vec<T> right_, up_, back_, eye_, d0_, dx_, dy_;
-    bool pinhole_ = false;
+    bool pinhole_ = false, parallel_ = false;
 };
 
 }  // namespace wrinkle::reference

@@ -61,6 +61,16 @@ TEST_P(CameraRaysOf, DerivativesAreTheDifferencesOfNeighbouringRays) {
     }
 }
 
+TEST(CameraRays, ParallelProjectionsAreSeenFromOneSide) {
+    const CameraRays<real> pinhole(test_camera(), size), parallel(orthographic_camera(), size);
+    const V back = normalize(V{1, -6, 4});
+    for (const real x : {0.5L, 63.5L}) {
+        EXPECT_LE(angle_degrees(parallel.view(parallel.at_depth(x, 7.5L, 3), x, 7.5L), back), 1e-13L);
+        const V p = pinhole.at_depth(x, 7.5L, 3);
+        EXPECT_LE(angle_degrees(pinhole.view(p, x, 7.5L), -p), 1e-13L);
+    }
+}
+
 TEST(CameraRays, TellsPinholesFromTheRest) {
     EXPECT_TRUE(CameraRays<real>(test_camera(), size).pinhole());
     EXPECT_TRUE(CameraRays<real>(shifted_camera(), size).pinhole());

@@ -22,7 +22,7 @@ template <class T>
 struct Decoded {
     bool valid = false, reflected = false;
     Vec<T> position;  ///< eye-relative
-    Vec<T> view;      ///< unit, towards the eye
+    Vec<T> view;      ///< unit, towards the viewer
     Vec<T> normal;
 };
 
@@ -67,7 +67,7 @@ public:
             d.position = p - rays_.eye();
         }
         d.valid = true;
-        d.view = normalize(-d.position);
+        d.view = rays_.view(d.position, xy.x, xy.y);
         const Vec<T> unit = normalize(n);
         d.reflected = dot(unit, d.view) < 0;
         d.normal = face_viewer(unit, d.view);

@@ -1,0 +1,143 @@
+// surface/gbuffer.clh
+#include <gtest/gtest.h>
+
+#include "run/frame_constants.h"
+#include "tests/kernels/check.h"
+#include "tests/reference/resolve.h"
+
+namespace wrinkle::test {
+namespace {
+
+constexpr int all_lanes[] = {1, 4, 8, 16};
+const std::vector<std::string> includes{"surface/gbuffer.clh"};
+constexpr float inf = INFINITY, nan = NAN, tiny = 1e-45f, huge = 3.4e38f;
+
+TEST(GBuffer, ValidityIsDecidedFromBits) {
+    const std::vector<float> numbers{0, -0.0f, tiny, 1e-38f, 1, -1, 0.999e9f, 1e9f, 1e10f, huge, inf, -inf, nan};
+    Columns columns;
+    std::vector<double> depth, normal;
+    for (const float a : numbers)
+        for (const float b : numbers) {
+            columns["a"].push_back(a), columns["b"].push_back(b);
+            const auto gone = [](float v) { return std::abs(v) < std::numeric_limits<float>::min(); };
+            depth.push_back(std::isfinite(a) && !gone(a) && a > 0 && a < 1e9f);
+            normal.push_back(std::isfinite(a) && std::isfinite(b) && !(gone(a) && gone(b)));
+        }
+    for (const bool fp64 : {false, true})
+        for (const int lanes : all_lanes) {
+            const Results r =
+                run_kernel({includes,
+                            "floats fa = wr_load_floats(in_a, at), fb = wr_load_floats(in_b, at), zero = 0;",
+                            {"truth(wr_valid_depth(fa))", "truth(wr_valid_normal(fa, fb, zero))",
+                             "truth(wr_valid_normal(zero, fa, fb))", "truth(wr_valid_position(fa, fb, zero))",
+                             "wr_real(wr_valid_or(fa, wr_finite(fa), 7))"}},
+                           columns, {lanes, fp64});
+            for (std::size_t i = 0; i < depth.size(); ++i) {
+                const float a = columns["a"][i], b = columns["b"][i];
+                const std::string row = fmt::format("{}, {} on {} lanes", a, b, lanes);
+                EXPECT_EQ(r[0][i], depth[i]) << row;
+                EXPECT_EQ(r[1][i], normal[i]) << row;
+                EXPECT_EQ(r[2][i], normal[i]) << row;
+                EXPECT_EQ(r[3][i], std::isfinite(a) && std::isfinite(b)) << row;
+                EXPECT_EQ(r[4][i], std::isfinite(a) ? double{a} : 7) << row;
+            }
+        }
+}
+
+/// Pixel centres of rows of any width, also narrower than the lanes, in bands that do not start at row 0.
+TEST(GBuffer, PixelsOfAWorkItem) {
+    for (const int width : {1, 2, 3, 7, 16, 31, 97}) {
+        const std::size_t pixels = static_cast<std::size_t>(width) * 11;
+        const Columns columns{{"nothing", std::vector<float>(pixels)}};
+        KernelData data;
+        data.constants = {static_cast<double>(width)};
+        for (const bool fp64 : {false, true})
+            for (const int lanes : all_lanes) {
+                const Results r = run_kernel(
+                    {includes,
+                     "wr_pixels px = wr_pixels_of(get_global_id(0), 50, 20, (uint)constants[0]);",
+                     {"px.x", "px.y", "(real)((WR_SCALAR)(px.in - at))", "(real)((WR_SCALAR)(px.out - at))"}},
+                    columns, {lanes, fp64}, data);
+                for (std::size_t i = 0; i < pixels; ++i) {
+                    ASSERT_EQ(r[0][i], static_cast<double>(i % width) + 0.5) << i << " of " << width << ", " << lanes;
+                    ASSERT_EQ(r[1][i], static_cast<double>(i / width) + 20.5) << i << " of " << width << ", " << lanes;
+                    ASSERT_EQ(r[2][i], 50);
+                    ASSERT_EQ(r[3][i], 0);
+                }
+            }
+    }
+}
+
+cases::Cases face_viewer_cases() {
+    cases::Cases c{.name = "face the viewer"};
+    for (unsigned seed = 1; seed <= 400; ++seed) {
+        cases::Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const V n = random.unit();
+        V p = random.unit() * (hard ? random.magnitude(-30, 30) : random.magnitude(-1, 2));
+        if (seed % 4 == 0) p = (cross(n, random.unit()) + n * random.magnitude(-6, -2)) * random.magnitude(-3, 3);
+        p = cases::Random::rounded(p);
+        const real along = dot(normalize(n), normalize(p));
+        if (std::abs(along) < 3e-7L) continue;  // either answer is right
+        c.add("face the viewer, seed " + std::to_string(seed), hard);
+        c.in("n", n), c.in("p", p);
+        c.out("normal", reference::face_viewer(normalize(n), normalize(-p)));
+        c.out("away", real(along > 0));
+    }
+    return c;
+}
+
+TEST(GBuffer, NormalsFaceTheViewer) {
+    const cases::Cases c = face_viewer_cases();
+    check(c, includes,
+          "mask away;\n"
+          "vec3 r = wr_face_viewer(unit(n), p, &away);",
+          {{"normal", xyz("r"), Metric::angle, 2e-5, 2e-5}, {"away", {"truth(away)"}, Metric::absolute, 0, 0, 0}});
+}
+
+/// An eye at 1e6 metres: the difference is good to an ulp of itself, not of the eye.
+TEST(GBuffer, PositionsRelativeToTheEye) {
+    cases::Cases c{.name = "positions"};
+    wr_frame frame{};
+    const V eye{1234567.8901L, -54321.0625L, 3.14159265L}, d0{-0.5L, 0.25L, -1}, dx{0.001L, 0, 0},
+        dy{0, -0.002L, 1e-5L};
+    const V forward{0.6L, 0, -0.8L};
+    const auto put = [](double(&to)[3], V v) { to[0] = double(v.x), to[1] = double(v.y), to[2] = double(v.z); };
+    put(frame.eye_high, cases::Random::rounded(eye));
+    put(frame.eye_low, eye - cases::Random::rounded(eye));
+    put(frame.d0, d0), put(frame.dx, dx), put(frame.dy, dy), put(frame.forward, forward);
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        cases::Random random(seed);
+        const V world = cases::Random::rounded(eye + random.unit() * random.magnitude(-1, 4));
+        const real x = random.below(4096) + 0.5L, y = random.below(2160) + 0.5L, depth = random.magnitude(-1, 4);
+        c.add("position, seed " + std::to_string(seed), false);
+        c.in("P", world), c.in("x", x), c.in("y", y), c.in("depth", depth);
+        c.out("relative", world - eye), c.out("ray", d0 + dx * x + dy * y);
+        c.out("parallel", d0 + dx * x + dy * y + forward * depth);
+    }
+    KernelData data;
+    const double* first = &frame.width;
+    data.constants.assign(first, first + sizeof frame / sizeof(double));
+    check(c, includes, "constant const wr_frame *frame = (constant const wr_frame *)constants;",
+          {{"relative",
+            {"wr_eye_relative(frame, P).x", "wr_eye_relative(frame, P).y", "wr_eye_relative(frame, P).z"},
+            Metric::relative,
+            1.2e-7,
+            0,
+            1e-9},
+           {"ray",
+            {"wr_ray(frame, x, y).x", "wr_ray(frame, x, y).y", "wr_ray(frame, x, y).z"},
+            Metric::relative,
+            3e-7,
+            0},
+           {"parallel",
+            {"wr_parallel_position(frame, x, y, depth).x", "wr_parallel_position(frame, x, y, depth).y",
+             "wr_parallel_position(frame, x, y, depth).z"},
+            Metric::relative,
+            5e-7,
+            0}},
+          data);
+}
+
+}  // namespace
+}  // namespace wrinkle::test
