@@ -16,6 +16,9 @@ struct Size {
 
 /// A camera in world space: clip = proj * view * p, camera looks down -z of view space (OpenGL), y up.
 /// Pixel (x, y) covers NDC x = 2x/width - 1, y = 1 - 2y/height; pixel centres lie at .5.
+///
+///     const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 16.0 / 9);
+///     const auto pixel = wrinkle::project(camera, {1920, 1080}, {0, 0, 0});  // the middle: 960, 540
 struct Camera {
     Mat4 view{};  ///< world to camera, rigid
     Mat4 proj{};  ///< camera to clip; perspective, orthographic or oblique
@@ -33,8 +36,9 @@ struct PinholeRays {
     Vec3 eye, d0, dx, dy;
 };
 
-/// The rays of `camera`, or nothing where no single eye point with planar depth exists (orthographic, oblique near
-/// plane, degenerate): then the general 4x4 form of the screen derivatives is used.
+/// The rays of `camera`, or nothing where no single eye point with planar depth exists (orthographic, a w that is not
+/// the view depth, degenerate): then the general 4x4 form of the screen derivatives is used. An oblique near plane
+/// changes nothing here: it bends depth in clip space, not the rays.
 std::optional<PinholeRays> pinhole_rays(const Camera& camera, Size size);
 
 /// World point to pixel coordinates (x right, y down); nothing for points at or behind the eye.

@@ -31,6 +31,10 @@ struct DeviceInfo {
 std::vector<DeviceInfo> list_devices();
 
 /// An OpenCL device to work on. A value: copies share the context and the queue.
+///
+///     for (const wrinkle::DeviceInfo& info : wrinkle::list_devices()) std::cout << info.name << '\n';
+///     const auto device = wrinkle::Device::open();                             // the first CPU
+///     const auto same = wrinkle::Device::adopt(device.context, device.queue);  // or any context and queue of yours
 struct Device {
     cl::Device device;
     cl::Context context;

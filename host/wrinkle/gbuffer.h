@@ -19,6 +19,9 @@
 ///   beauty      beauty.r .g .b                     the finished picture, linear
 ///   cryptomatte crypto.id0 crypto.coverage0 ...    ranked pairs; id is float bits
 /// Any other channel of the file is the plane "channel:NAME".
+///
+///     for (const wrinkle::Role& role : wrinkle::gbuffer_roles())
+///         std::cout << role.name << " has " << role.planes.size() << " planes\n";
 namespace wrinkle {
 
 /// A role with its planes; the table of the comment above as data.
@@ -30,6 +33,8 @@ struct Role {
 const std::vector<Role>& gbuffer_roles();
 
 /// Bits of the `marked` output plane, added up as a float.
+///
+///     const bool background = (static_cast<int>(marked[0]) & wrinkle::Marked::invalid) != 0;
 struct Marked {
     static constexpr int invalid = 1;      ///< background, NaN, Inf, zero normal: the normal passes through
     static constexpr int back_facing = 2;  ///< the normal faced away and was reflected towards the viewer

@@ -14,18 +14,21 @@
 
 /// The three passes, callable with host memory or enqueued on the caller's own queue with the caller's buffers.
 ///
-///     auto device = wrinkle::Device::open();
-///     auto pass = wrinkle::evaluate(device, scene, {size, camera, {"depth", "normal.x", "normal.y", "normal.z"}});
-///     pass.run({{"depth", depth}, {"normal.x", nx}, ...}, {{"normal.x", out_x}, ...});
+///     const wrinkle::Frame frame{size, camera, {"depth", "normal.x", "normal.y", "normal.z"}};
+///     auto pass = wrinkle::evaluate(wrinkle::Device::open(), scene, frame);
+///     pass.run({{"depth", depth}, {"normal.x", nx}, {"normal.y", ny}, {"normal.z", nz}},
+///              {{"normal.x", out_x}, {"normal.y", out_y}, {"normal.z", out_z}});
+///
+/// tests/examples/ holds a whole program for each pass.
 namespace wrinkle {
 
 /// The frame that a pass is made for.
 struct Frame {
     Size size;
     Camera camera;
-    std::set<std::string> planes;                      ///< what the caller can give; names as in wrinkle/gbuffer.h
-    bool ray_depth = false;                            ///< "depth" is the distance along the ray, not planar
-    std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of names, for Cryptomatte masks
+    std::set<std::string> planes;                        ///< what the caller can give; names as in wrinkle/gbuffer.h
+    bool ray_depth = false;                              ///< "depth" is the distance along the ray, not planar
+    std::map<std::string, std::uint32_t> cryptomatte{};  ///< hashes of names, for Cryptomatte masks
 };
 
 using HostPlanes = std::map<std::string, std::span<const float>>;

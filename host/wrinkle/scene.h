@@ -12,6 +12,14 @@
 
 /// A scene: what to read, which bump layers to add, what to write. Value types; nothing here knows files or OpenCL.
 /// README.md, "Scene format", is the reference of the TOML form; load_scene() reads it.
+///
+///     wrinkle::Layer grain;
+///     grain.name = "grain";
+///     grain.bump = wrinkle::NoiseLayer{.frequency = 20, .octaves = 4};
+///     grain.scale = 0.002;    // metres
+///     grain.mask.object = 7;  // only on this object
+///     wrinkle::Scene scene;
+///     scene.layers = {grain};
 namespace wrinkle {
 
 // --- Textures ------------------------------------------------------------------------------------------------------
@@ -21,7 +29,7 @@ enum class Upscale { plain, smooth };   ///< [Mik20 listing 16] isUpscaleHQ fals
 enum class Wrap { repeat, clamp };
 
 struct TextureUse {
-    std::filesystem::path file;
+    std::filesystem::path file{};
     Content content = Content::height;
     Upscale upscale = Upscale::smooth;
     Wrap wrap = Wrap::repeat;
@@ -43,8 +51,8 @@ struct UvMapping {
 // --- Masks: all that are given multiply ----------------------------------------------------------------------------
 
 struct MaskTexture {
-    std::filesystem::path file;
-    UvMapping uv;
+    std::filesystem::path file{};
+    UvMapping uv{};
 };
 
 struct Mask {
@@ -60,14 +68,14 @@ struct Mask {
 
 /// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
 struct NormalMapLayer {
-    TextureUse texture{.file = {}, .content = Content::normal};
-    UvMapping uv;
+    TextureUse texture{.content = Content::normal};
+    UvMapping uv{};
 };
 
 /// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].
 struct HeightMapLayer {
-    TextureUse texture;
-    UvMapping uv;
+    TextureUse texture{};
+    UvMapping uv{};
 };
 
 /// Three planar projections along the world axes, blended by the normal [Mik20 4.4].

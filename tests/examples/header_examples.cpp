@@ -1,0 +1,65 @@
+// The examples in the comments of the public headers, line by line; header_lines.cmake compares the two.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <vector>
+
+#include "wrinkle/camera.h"
+#include "wrinkle/device.h"
+#include "wrinkle/error.h"
+#include "wrinkle/gbuffer.h"
+#include "wrinkle/passes.h"
+#include "wrinkle/scene.h"
+
+TEST(HeaderExample, Error) {
+    testing::internal::CaptureStderr();
+    try {
+        wrinkle::load_scene("missing.toml");
+    } catch (const wrinkle::Error& error) { std::cerr << error.what() << '\n'; }
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("missing.toml"), std::string::npos);
+}
+
+TEST(HeaderExample, Camera) {
+    const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 16.0 / 9);
+    const auto pixel = wrinkle::project(camera, {1920, 1080}, {0, 0, 0});  // the middle: 960, 540
+    ASSERT_TRUE(pixel.has_value());
+    EXPECT_NEAR((*pixel)[0], 960, 1e-9);
+    EXPECT_NEAR((*pixel)[1], 540, 1e-9);
+}
+
+TEST(HeaderExample, GBuffer) {
+    for (const wrinkle::Role& role : wrinkle::gbuffer_roles())
+        std::cout << role.name << " has " << role.planes.size() << " planes\n";
+    const std::vector<float> marked{3};
+    const bool background = (static_cast<int>(marked[0]) & wrinkle::Marked::invalid) != 0;
+    EXPECT_TRUE(background);
+}
+
+TEST(HeaderExample, Device) {
+    for (const wrinkle::DeviceInfo& info : wrinkle::list_devices()) std::cout << info.name << '\n';
+    const auto device = wrinkle::Device::open();                             // the first CPU
+    const auto same = wrinkle::Device::adopt(device.context, device.queue);  // or any context and queue of yours
+    EXPECT_EQ(same.info.name, device.info.name);
+}
+
+TEST(HeaderExample, SceneAndPasses) {
+    wrinkle::Layer grain;
+    grain.name = "grain";
+    grain.bump = wrinkle::NoiseLayer{.frequency = 20, .octaves = 4};
+    grain.scale = 0.002;    // metres
+    grain.mask.object = 7;  // only on this object
+    wrinkle::Scene scene;
+    scene.layers = {grain};
+
+    const wrinkle::Size size{40, 30};
+    const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 4.0 / 3);
+    const std::size_t pixels = 40 * 30;
+    const std::vector<float> depth(pixels, 5), nx(pixels), ny(pixels), nz(pixels, 1);
+    std::vector<float> out_x(pixels), out_y(pixels), out_z(pixels);
+    scene.layers[0].mask = {};  // no object plane here
+    const wrinkle::Frame frame{size, camera, {"depth", "normal.x", "normal.y", "normal.z"}};
+    auto pass = wrinkle::evaluate(wrinkle::Device::open(), scene, frame);
+    pass.run({{"depth", depth}, {"normal.x", nx}, {"normal.y", ny}, {"normal.z", nz}},
+             {{"normal.x", out_x}, {"normal.y", out_y}, {"normal.z", out_z}});
+    EXPECT_NE(out_x, nx);
+}

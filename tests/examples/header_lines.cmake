@@ -1,0 +1,18 @@
+# Checks that every line of an example in a public header (a comment indented by five blanks) is in EXAMPLES, where it
+# is compiled and run. Run with -DHEADERS=... -DEXAMPLES=... -P.
+file(READ "${EXAMPLES}" examples)
+file(GLOB headers "${HEADERS}/*.h")
+foreach(header IN LISTS headers)
+  file(STRINGS "${header}" lines REGEX "^ *///     ")
+  list(LENGTH lines count)
+  if(count EQUAL 0)
+    message(SEND_ERROR "${header} has no example")
+  endif()
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^ *///  *" "" line "${line}")
+    string(FIND "${examples}" "${line}" at)
+    if(at EQUAL -1)
+      message(SEND_ERROR "${header}: not in ${EXAMPLES}: ${line}")
+    endif()
+  endforeach()
+endforeach()
