@@ -2,10 +2,10 @@
 
     python3 pack_gbuffer.py STEM OUT.exr          reads STEM.data.exr and STEM.beauty.exr; STEM.camera.json is copied beside
 
-Channels keep Blender's names. UV, depth, object index and Cryptomatte stay exact float32. Position is rounded to 2^-13 of
-the depth (0.06 pixel), normals to 2^-13, since the last bits of a render do not compress; picture and albedo are half
-floats. Alpha and the constant third UV channel go. Header: Cryptomatte's metadata and the aspect stay; dates, times and paths go. The last lines
-check the result: channel by channel against the render, and positions through the camera against their pixel centres.
+Channels keep Blender's names. UV, depth, object index and Cryptomatte stay exact float32. Position is rounded to 2^-14 of
+the depth (0.03 pixel), normals to 2^-15, since the last bits of a render do not compress; picture and albedo are half
+floats. Alpha and the constant third UV channel go. Header: Cryptomatte's metadata stays; dates, times and paths go. The
+last lines check the result: channel by channel, and positions through the camera against their pixel centres.
 Needs python3-numpy and python3-openimageio.
 """
 import json
@@ -22,11 +22,15 @@ HALF = ["Combined.R", "Combined.G", "Combined.B", "DiffCol.R", "DiffCol.G", "Dif
 
 
 def read(path):
+    """The first part's header and every part's channels by name."""
     file = oiio.ImageInput.open(path)
-    spec = file.spec()
-    pixels = file.read_image("float")
+    first, channels, part = file.spec(), {}, 0
+    while file.seek_subimage(part, 0):
+        pixels = file.read_image(part, 0, 0, file.spec().nchannels, "float")
+        channels.update({name: pixels[..., i].copy() for i, name in enumerate(file.spec().channelnames)})
+        part += 1
     file.close()
-    return spec, {name: pixels[..., i].copy() for i, name in enumerate(spec.channelnames)}
+    return first, channels
 
 
 def layer(name):
@@ -37,28 +41,40 @@ spec_in, data = read(stem + ".data.exr")
 _, beauty = read(stem + ".beauty.exr")
 data.update({layer(n): beauty[layer(n)] for n in HALF[:3]})
 depth = data[layer("Depth.Z")]
-step = np.exp2(np.floor(np.log2(np.where(depth < 1e9, depth, 1))) - 13)
+step = np.exp2(np.floor(np.log2(np.where(depth < 1e9, depth, 1))) - 14)
 for axis in "XYZ":
     data[layer("Position." + axis)] = (np.round(data[layer("Position." + axis)] / step) * step).astype(np.float32)
-    data[layer("Normal." + axis)] = (np.round(data[layer("Normal." + axis)] * 2**13) / 2**13).astype(np.float32)
-names = [layer(n) for n in HALF + FLOAT]
-# Half of an albedo is for reading by people; the largest picture value stays far below half's 65504.
-pixels = np.stack([data[n] for n in names], axis=-1)
+    data[layer("Normal." + axis)] = (np.round(data[layer("Normal." + axis)] * 2**15) / 2**15).astype(np.float32)
+# One part a pass: ZIP looks back 32 KiB only, and rows of twenty channels side by side would not fit. Small frames stay in
+# one part, the way Blender writes them.
+PARTS = [["Combined"], ["DiffCol"], ["Position"], ["Normal"], ["UV"], ["Depth"], ["IndexOB", "CryptoObject00"]]
+if spec_in.width < 500:
+    PARTS = [sum(PARTS, [])]
 
-spec = oiio.ImageSpec(spec_in.width, spec_in.height, len(names), "float")
-spec.channelnames = names
-spec.channelformats = tuple([oiio.TypeDesc("half")] * len(HALF) + [oiio.TypeDesc("float")] * len(FLOAT))
-spec.attribute("compression", "zip:9")
-spec.attribute("BlenderMultiChannel", "Blender V2.55.1 and newer")
-spec.attribute("Software", "Blender 3.4, repacked by wrinkle data/make/pack_gbuffer.py")
-spec.attribute("DateTime", "2000:01:01 00:00:00")  # a fixed date: the same input gives the same bytes
-for attribute in spec_in.extra_attribs:
-    if attribute.name.startswith("cryptomatte/"):
-        spec.attribute(attribute.name, attribute.value)
+
+def part_spec(number, channels):
+    spec = oiio.ImageSpec(spec_in.width, spec_in.height, len(channels), "float")
+    spec.channelnames = [layer(n) for n in channels]
+    spec.channelformats = tuple(oiio.TypeDesc("half" if n in HALF else "float") for n in channels)
+    spec.attribute("compression", "zip:9")
+    spec.attribute("Software", "Blender 3.4, repacked by wrinkle data/make/pack_gbuffer.py")
+    spec.attribute("DateTime", "2000:01:01 00:00:00")  # a fixed date: the same input gives the same bytes
+    if len(PARTS) > 1:
+        spec.attribute("oiio:subimagename", "+".join(PARTS[number]))
+    for attribute in spec_in.extra_attribs:
+        if attribute.name.startswith("cryptomatte/"):
+            spec.attribute(attribute.name, attribute.value)
+    return spec
+
+
+groups = [[n for n in HALF + FLOAT if n.split(".")[0] in part] for part in PARTS]
+specs = [part_spec(k, group) for k, group in enumerate(groups)]
 file = oiio.ImageOutput.create(out)
-file.open(out, spec)
-if not file.write_image(pixels.astype(np.float32)):
-    sys.exit(file.geterror())
+for k, group in enumerate(groups):
+    opened = file.open(out, tuple(specs)) if k == 0 else file.open(out, specs[k], "AppendSubimage")
+    pixels = np.stack([data[layer(n)] for n in group], axis=-1).astype(np.float32)
+    if not opened or not file.write_image(pixels):
+        sys.exit(file.geterror())
 file.close()
 camera_file = out[:-len(".exr")] + ".camera.json"
 shutil.copyfile(stem + ".camera.json", camera_file)
@@ -81,7 +97,7 @@ y = (1 - clip[:, 1] / clip[:, 3]) / 2 * camera["height"]
 j, i = np.nonzero(seen)
 residual = np.hypot(x - i - 0.5, y - j - 0.5)
 depth_error = np.abs(clip[:, 3] - back[layer("Depth.Z")][seen]) / clip[:, 3]
-print(f"{out}: {spec.width}x{spec.height}, {seen.mean():.1%} covered; reprojection p50 {np.median(residual):.5f} "
+print(f"{out}: {spec_out.width}x{spec_out.height}, {seen.mean():.1%} covered; reprojection p50 {np.median(residual):.5f} "
       f"p99 {np.quantile(residual, .99):.5f} max {residual.max():.5f} px; depth against position {depth_error.max():.1e}")
 index = back[layer("IndexOB.X")]
 ids = json.loads(manifest[0].value)

@@ -76,7 +76,10 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     if (scene.lighting.relight == Relight::off) return;
     const std::vector<std::string> lit{"out:lit.r", "out:lit.g", "out:lit.b"}, colors{"R", "G", "B"};
     add(file_name("lit", "exr", frame), lit, colors, PngEncoding::linear);
-    if (output.png) add(file_name("lit", "png", frame), lit, colors, PngEncoding::srgb);
+    if (!output.png) return;
+    add(file_name("lit", "png", frame), lit, colors, PngEncoding::srgb);
+    if (scene.lighting.relight == Relight::ratio)
+        add(file_name("before", "png", frame), {"beauty.r", "beauty.g", "beauty.b"}, colors, PngEncoding::srgb);
 }
 
 void FrameOutputs::write(std::uint32_t begin, std::uint32_t end, const std::map<std::string, const float*>& planes) {

@@ -12,8 +12,9 @@
 
 namespace wrinkle {
 
-/// The files that one frame becomes: normal.exr (with what else the scene wants), normal.png, lit.exr, lit.png; a frame
-/// number goes before the extension. Nothing is seen under these names before finish().
+/// The files that one frame becomes: normal.exr (with what else the scene wants), normal.png, lit.exr, lit.png, and
+/// before.png where a picture is relit; a frame number goes before the extension. Nothing is seen under these names
+/// before finish().
 class FrameOutputs {
 public:
     FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,

@@ -31,24 +31,26 @@ Image half(const Image& fine) {
     return coarse;
 }
 
-/// Slopes per unit of texture coordinate of a level of heights: the derivative matrix D against the smoothing matrix B
-/// of [Mik20 eq. 20, 21], at texel centres.
-Image slopes_of_heights(const Image& h, Wrap wrap) {
-    Image slopes{h.width, h.height, 2, {}};
-    slopes.texels.reserve(h.texels.size() * 2);
-    for (int y = 0; y < h.height; ++y) {
+/// Appends the slopes per unit of texture coordinate of a level of heights, with a border of one texel: the derivative
+/// matrix D against the smoothing matrix B of [Mik20 eq. 20, 21], at texel centres. The border's slopes are those of the
+/// heights as they wrap: beyond a clamped edge there is none across it.
+void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
+    for (int y = -1; y <= h.height; ++y) {
         const int down = wrapped(y - 1, h.height, wrap), up = wrapped(y + 1, h.height, wrap);
-        for (int x = 0; x < h.width; ++x) {
+        const int middle = wrapped(y, h.height, wrap);
+        for (int x = -1; x <= h.width; ++x) {
             const int left = wrapped(x - 1, h.width, wrap), right = wrapped(x + 1, h.width, wrap);
+            const int here = wrapped(x, h.width, wrap);
             const double s = (h.at(right, down, 0) - h.at(left, down, 0)) +
-                             2.0 * (h.at(right, y, 0) - h.at(left, y, 0)) + (h.at(right, up, 0) - h.at(left, up, 0));
-            const double t = (h.at(left, up, 0) - h.at(left, down, 0)) + 2.0 * (h.at(x, up, 0) - h.at(x, down, 0)) +
+                             2.0 * (h.at(right, middle, 0) - h.at(left, middle, 0)) +
+                             (h.at(right, up, 0) - h.at(left, up, 0));
+            const double t = (h.at(left, up, 0) - h.at(left, down, 0)) +
+                             2.0 * (h.at(here, up, 0) - h.at(here, down, 0)) +
                              (h.at(right, up, 0) - h.at(right, down, 0));
-            slopes.texels.push_back(static_cast<float>(s / 8 * h.width));
-            slopes.texels.push_back(static_cast<float>(t / 8 * h.height));
+            heap.texels.push_back(static_cast<float>(s / 8 * h.width));
+            heap.texels.push_back(static_cast<float>(t / 8 * h.height));
         }
     }
-    return slopes;
 }
 
 /// Slopes of tangent-space normals [Mik20 listing 2]; m = 0 is flat.
@@ -84,7 +86,10 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        append(heap, slopes && !normals ? slopes_of_heights(level, planned.use.wrap) : level, planned.use.wrap);
+        if (slopes && !normals)
+            append_slopes(heap, level, planned.use.wrap);
+        else
+            append(heap, level, planned.use.wrap);
         if (level.width == 1 && level.height == 1) {
             ++count;
             break;
