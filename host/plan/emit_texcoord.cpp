@@ -83,9 +83,10 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
             "}}\n",
             number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(real)(0)");
         section.operations += 60;
-        if (mask.texture->uv.source == UvSource::aov) text += "        m = uv_valid ? m : (real)(0);\n";
     }
     if (mask.invert) text += "        m = 1 - m;\n";
+    if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion: unknown is not "outside"
+        text += "        m = uv_valid ? m : (real)(0);\n";
     section.reads.insert("valid");
     text += "        mask active = valid & (m != 0);\n";
     return text;

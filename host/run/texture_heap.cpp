@@ -32,8 +32,8 @@ Image half(const Image& fine) {
 }
 
 /// Appends the slopes per unit of texture coordinate of a level of heights, with a border of one texel: the derivative
-/// matrix D against the smoothing matrix B of [Mik20 eq. 20, 21], at texel centres. The border's slopes are those of the
-/// heights as they wrap: beyond a clamped edge there is none across it.
+/// matrix D against the smoothing matrix B of [Mik20 eq. 20, 21], at texel centres. The border's slopes are those of
+/// the heights as they wrap: beyond a clamped edge there is none across it.
 void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
     for (int y = -1; y <= h.height; ++y) {
         const int down = wrapped(y - 1, h.height, wrap), up = wrapped(y + 1, h.height, wrap);

@@ -1,0 +1,205 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/camera_file.h"
+#include "io/gbuffer_reader.h"
+#include "io/texture_file.h"
+#include "tests/reference/evaluate.h"
+#include "tests/reference/test_frame.h"
+#include "wrinkle/error.h"
+#include "wrinkle/passes.h"
+
+/// Frames in memory, passes run on them, errors against the references.
+namespace wrinkle::test {
+
+namespace fs = std::filesystem;
+using Pixels = std::map<std::string, std::vector<float>>;
+using V = reference::Vec<double>;
+
+inline const fs::path data_folder = fs::path(WRINKLE_SOURCE_DIR) / "data";
+
+inline const Device& device() {
+    static const Device opened = Device::open();
+    return opened;
+}
+
+/// A frame with its pixels.
+struct HostFrame {
+    Frame frame;
+    Pixels pixels;
+
+    HostFrame() = default;
+    HostFrame(const reference::TestFrame& made, const Camera& camera) : pixels(made.pixels) {
+        frame.size = made.size;
+        frame.camera = camera;
+        for (const auto& [name, values] : pixels) frame.planes.insert(name);
+    }
+
+    std::size_t count() const { return std::size_t{frame.size.width} * frame.size.height; }
+    std::vector<float>& add(const std::string& name, float value = 0) {
+        frame.planes.insert(name);
+        return pixels[name] = std::vector<float>(count(), value);
+    }
+    void remove(const std::string& name) {
+        frame.planes.erase(name);
+        pixels.erase(name);
+    }
+    HostPlanes planes() const { return {pixels.begin(), pixels.end()}; }
+};
+
+/// data/gbuffer/small.exr, every channel of it.
+inline HostFrame small_frame() {
+    const GBufferReader reader(data_folder / "gbuffer/small.exr");
+    CameraSource source;
+    source.file = data_folder / "gbuffer/small.camera.json";
+    HostFrame out;
+    out.frame.size = reader.size();
+    out.frame.camera = read_camera(source, reader);
+    for (const std::string& name : reader.cryptomatte().names())
+        out.frame.cryptomatte[name] = reader.cryptomatte().id(name);
+    std::vector<std::string> names = reader.planes();
+    for (const std::string& channel : reader.channels()) names.push_back("channel:" + channel);
+    std::vector<float*> into;
+    for (const std::string& name : names) into.push_back(out.add(name).data());
+    reader.read_rows(0, out.frame.size.height, names, into);
+    return out;
+}
+
+/// A scene of data/scenes, with `marked` written as well.
+inline Scene data_scene(const std::string& name) {
+    Scene scene = load_scene(data_folder / "scenes" / (name + ".toml"));
+    scene.output.marked = true;
+    return scene;
+}
+
+/// Every texture that a scene names.
+inline reference::Images images_of(const Scene& scene) {
+    reference::Images images;
+    const auto add = [&](const fs::path& file, Content content) {
+        Image image = load_texture(file, content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+        images[file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
+    };
+    for (const Layer& layer : scene.layers) {
+        std::visit(
+            [&](const auto& bump) {
+                if constexpr (requires { bump.texture; }) add(bump.texture.file, bump.texture.content);
+            },
+            layer.bump);
+        if (layer.mask.texture) add(layer.mask.texture->file, Content::height);
+    }
+    return images;
+}
+
+/// Runs a pass on host memory: every output it has.
+template <class T = float>
+std::map<std::string, std::vector<T>> run(Pass& pass, const HostFrame& frame) {
+    std::map<std::string, std::vector<T>> out;
+    std::map<std::string, std::span<T>> spans;
+    for (const std::string& name : pass.outputs()) spans[name] = out[name] = std::vector<T>(frame.count(), T(-77));
+    pass.run(frame.planes(), spans);
+    return out;
+}
+
+inline Pixels evaluate_on(const HostFrame& frame, const Scene& scene, const PassOptions& options = {}) {
+    Pass pass = evaluate(device(), scene, frame.frame, options);
+    return run(pass, frame);
+}
+
+template <class T>
+V vec_at(const std::map<std::string, std::vector<T>>& planes, const std::string& name, std::size_t i) {
+    const bool color = planes.contains(name + ".r");
+    const auto part = [&](const char* axis) { return static_cast<double>(planes.at(name + "." + axis)[i]); };
+    return color ? V{part("r"), part("g"), part("b")} : V{part("x"), part("y"), part("z")};
+}
+
+/// Numbers by their order: median, p99, max, and how many were not finite.
+struct Spread {
+    double median = 0, p99 = 0, max = 0;
+    std::size_t count = 0, non_finite = 0;
+
+    explicit Spread(std::vector<double> errors) {
+        non_finite = static_cast<std::size_t>(std::erase_if(errors, [](double e) { return !std::isfinite(e); }));
+        count = errors.size();
+        if (errors.empty()) return;
+        std::ranges::sort(errors);
+        median = errors[count / 2], p99 = errors[(count - 1) * 99 / 100], max = errors.back();
+    }
+};
+
+inline void print(const std::string& what, const Spread& s, const char* unit) {
+    fmt::print("{:<34} median {:.2e}  p99 {:.2e}  max {:.2e} {}; {} pixels, {} not finite\n", what, s.median, s.p99,
+               s.max, unit, s.count, s.non_finite);
+}
+
+struct Bounds {
+    double median = 0, p99 = 0, max = 0;
+};
+
+inline void expect_within(const std::string& what, const Spread& s, const Bounds& bounds, const char* unit) {
+    print(what, s, unit);
+    EXPECT_EQ(s.non_finite, 0u) << what;
+    EXPECT_LE(s.median, bounds.median) << what;
+    EXPECT_LE(s.p99, bounds.p99) << what;
+    EXPECT_LE(s.max, bounds.max) << what;
+}
+
+/// What the reference makes of every pixel.
+struct Truth {
+    std::vector<reference::Evaluated<double>> pixels;
+    std::vector<V> lit;
+
+    Truth(const HostFrame& frame, const Scene& given) {
+        Scene scene = given;
+        if (frame.frame.ray_depth) scene.gbuffer.depth = DepthKind::ray;
+        const reference::Images images = images_of(scene);
+        const reference::SceneEvaluator<double> evaluator(scene, frame.frame.size, frame.frame.camera, frame.planes(),
+                                                          images);
+        for (std::size_t i = 0; i < frame.count(); ++i) {
+            pixels.push_back(evaluator.evaluate(i));
+            if (scene.lighting.relight != Relight::off) lit.push_back(evaluator.relit(i, pixels.back()));
+        }
+    }
+};
+
+/// Degrees between the normals of a run and the true ones, valid pixels only; invalid ones must be passed through.
+template <class T>
+Spread normal_error(const std::map<std::string, std::vector<T>>& got, const Truth& truth) {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+        const V normal = vec_at(got, "normal", i);
+        if (truth.pixels[i].valid)
+            errors.push_back(angle_degrees(normal, truth.pixels[i].normal));
+        else
+            EXPECT_EQ(length(normal - truth.pixels[i].normal), 0) << "invalid pixel " << i;
+    }
+    return Spread(std::move(errors));
+}
+
+/// Pixels whose `marked` differs from the true one.
+template <class T>
+std::size_t marked_differences(const std::map<std::string, std::vector<T>>& got, const Truth& truth) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+        if (got.at("marked")[i] != static_cast<T>(truth.pixels[i].marked)) ++count;
+    return count;
+}
+
+/// Largest difference of any output of two runs.
+template <class A, class B>
+double largest_difference(const std::map<std::string, std::vector<A>>& a,
+                          const std::map<std::string, std::vector<B>>& b) {
+    double largest = 0;
+    for (const auto& [name, values] : a)
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (const double d = std::abs(double(values[i]) - double(b.at(name)[i])); !(d <= largest)) largest = d;
+    return largest;
+}
+
+}  // namespace wrinkle::test
