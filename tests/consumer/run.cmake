@@ -5,6 +5,7 @@ function(run)
 endfunction()
 
 set(prefix ${WORK}/prefix)
+set(ENV{WRINKLE_CACHE_DIR} ${WORK}/cache)
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=${CONFIG}
