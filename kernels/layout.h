@@ -13,14 +13,14 @@ typedef struct {
     WR_SCALAR dy_cross_d0[3], dy_cross_dx[3];  // dy x d = dy_cross_d0 + x dy_cross_dx
     // Any projection: columns of the inverse view-projection-screen matrix, eye-relative, and their w
     WR_SCALAR c0[3], c1[3], c2[3], c3[3], w[4];
-    WR_SCALAR forward[3];  // unit view direction; parallel projections
+    WR_SCALAR forward[3];  // along the rays of a parallel projection, per unit of view depth
 } wr_frame;
 
 // A decal's box. q = to_box (p - center) is in [-1,1]^3 inside.
 typedef struct {
     WR_SCALAR center[3];
     WR_SCALAR to_box_x[3], to_box_y[3], to_box_z[3];  // unit axis / half size
-    WR_SCALAR gradient_s[3], gradient_t[3];           // volume gradient for a slope of 1 along s, t; holds scale and sign
+    WR_SCALAR gradient_s[3], gradient_t[3];           // volume gradient for a slope of 1 along s, t; scale, sign
     WR_SCALAR axis_z[3];                              // unit, towards the projector
     WR_SCALAR falloff;                                // 1 / share of the half size that fades; 0: a hard edge
     WR_SCALAR fade_zero, fade_slope;                  // angle fade = clamp((n . axis_z - fade_zero) fade_slope, 0, 1)

@@ -28,8 +28,8 @@ PERMUTATION = [
 ]
 
 HASH_HEADER = """\
-// Tables of Perlin's 2002 reference noise, packed so that the eight corners of a cell need 7 loads instead of 14 for the
-// hashes, and no arithmetic to choose gradients. data/make/noise_table.py prints this file.
+// Tables of Perlin's 2002 reference noise, packed so that the eight corners of a cell need 7 loads instead of 14 for
+// the hashes, and no arithmetic to choose gradients. data/make/noise_table.py prints this file.
 
 // p[i] in the low byte, p[i + 1] in the high one; the permutation twice over.
 constant ushort wr_perlin_hash[512] = {"""

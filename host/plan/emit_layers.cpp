@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plan/section.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle {
 
@@ -114,14 +115,15 @@ struct Body {
             const std::size_t origin =
                 emitter.origin({.axes = {Vec3{frequency, 0, 0}, Vec3{0, frequency, 0}, Vec3{0, 0, frequency}},
                                 .offset = {},
-                                .period = 256});
+                                .period = 256,
+                                .fourth = frequency});
             if (i == 0) first = origin;
         }
         section.reads.insert("p");
         if (layer.footprint) section.reads.insert({"dp_dx", "dp_dy"});
         section.operations += kNoiseOctave * l.octaves;
-        return volume(fmt::format("wr_fractal_gradient(p, origins + {}, {}, {}, {}, {}, {}, active)", 4 * first,
-                                  literal(l.frequency), literal(l.lacunarity), literal(l.gain), l.octaves,
+        return volume(fmt::format("wr_fractal_gradient(p, origins + {}, {}, {}, {}, active)", 4 * first,
+                                  literal(l.gain), l.octaves,
                                   layer.footprint ? "wr_footprint_size(dp_dx, dp_dy)" : "(real)(0)"));
     }
 
@@ -202,6 +204,9 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     if (layers.size() > 1) section.title += fmt::format(" and {} more", layers.size() - 1);
     const std::string who =
         fmt::format("{}layer \"{}\"", layer.location.empty() ? "" : layer.location + ": ", layer.name);
+    for (const Layer* each : layers)
+        if (!std::isfinite(each->scale))
+            throw Error(fmt::format("layer \"{}\": scale is {}; it must be finite", each->name, each->scale));
     const std::string mask = emit_mask(emitter, layer, section);
     const std::string bump = std::holds_alternative<DecalLayer>(layer.bump)
                                  ? decal_loop(emitter, layers, section)

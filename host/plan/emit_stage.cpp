@@ -53,7 +53,7 @@ Section emit_lighting(Emitter& emitter) {
     };
     std::string& text = section.body;
     text = emitter.available.camera == CameraKind::parallel
-               ? "        vec3 v = wr_scale(wr_v3(frame->forward), (real)(-1));\n"
+               ? "        vec3 v = wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)));\n"
                : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n";
     text += planes({"albedo.r", "albedo.g", "albedo.b"})
                 ? "        vec3 albedo = wr_v3(wr_load(in_albedo_r, at.in), wr_load(in_albedo_g, at.in), "

@@ -44,6 +44,7 @@ struct Origin {
     std::array<Vec3, 3> axes{};
     Vec3 offset{};
     double period = 0;
+    double fourth = 0;  ///< a number that travels with them: the frequency of an octave
 };
 
 /// A texture as kernels sample it.

@@ -55,12 +55,16 @@ wr_frame fill_frame(const Camera& camera, Size size, const Vec3& eye, const Mat4
         frame.w[i] = inverse_vps[3][i];
         for (std::size_t k = 0; k < 3; ++k) (*columns[i])[k] = inverse_vps[k][i] - eye[k] * frame.w[i];
     }
-    // A parallel projection's pixel (x, y) at view depth 0: the column sum without its part along the view direction.
+    // A parallel projection: the rays' direction, which a sheared one has off the camera's axis, per unit of view
+    // depth; and pixel (x, y) at view depth 0: the column sum, moved along the ray.
     if (frame.w[0] == 0 && frame.w[1] == 0 && frame.w[2] == 0) {
-        const Vec3 forward{frame.forward[0], frame.forward[1], frame.forward[2]};
+        const Vec3 axis{frame.forward[0], frame.forward[1], frame.forward[2]},
+            ray{frame.c2[0], frame.c2[1], frame.c2[2]};
+        const Vec3 forward = scaled(ray, 1 / dot(ray, axis));
+        put(frame.forward, forward);
         const auto flat = [&](const double(&c)[3]) {
             const Vec3 v = scaled({c[0], c[1], c[2]}, 1 / frame.w[3]);
-            return subtract(v, scaled(forward, dot(v, forward)));
+            return subtract(v, scaled(forward, dot(v, axis)));
         };
         put(frame.d0, flat(frame.c3));
         put(frame.dx, flat(frame.c0));
@@ -114,7 +118,7 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
             if (origin.period > 0) value -= origin.period * std::floor(value / origin.period);
             out.origins.push_back(value);
         }
-        out.origins.push_back(0);
+        out.origins.push_back(origin.fourth);
     }
     for (std::size_t i = 0; i < plan.decals.size(); ++i)
         out.decals.push_back(fill_decal(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));

@@ -38,12 +38,12 @@ inline Cases noise_cases() {
 
 constexpr int fractal_octaves = 8;
 
-/// Cases with constants of their own: frequency, lacunarity, gain, then 4 numbers an octave, the eye on its lattice.
+/// Cases with constants of their own: the gain, then 4 numbers an octave, the eye on its lattice and the frequency.
 struct FractalCases {
     Cases cases;
     std::vector<double> constants;
 };
-constexpr std::size_t fractal_constants = 3 + 4 * fractal_octaves;
+constexpr std::size_t fractal_constants = 1 + 4 * fractal_octaves;
 
 /// Fractal sums seen from an eye far from the origin, with and without a footprint.
 inline FractalCases fractal_cases() {
@@ -61,14 +61,14 @@ inline FractalCases fractal_cases() {
         // Of each octave that is added: noise_gradient_absolute times frequency and gain, and half an ulp of the
         // lattice coordinate (< 512) times the largest second derivative.
         real size = 0;
-        for (const real v : {f.frequency, f.lacunarity, f.gain}) out.constants.push_back(static_cast<double>(v));
+        out.constants.push_back(static_cast<double>(f.gain));
         real frequency = f.frequency, amplitude = 1;
         for (int i = 0; i < fractal_octaves; ++i, frequency *= lacunarity, amplitude *= f.gain) {
             for (const real e : {eye.x, eye.y, eye.z}) {
                 const real at = e * frequency;
                 out.constants.push_back(static_cast<double>(at - 256 * std::floor(at / 256)));
             }
-            out.constants.push_back(0);
+            out.constants.push_back(static_cast<double>(frequency));
             size += amplitude * frequency * reference::octave_weight(footprint * frequency);
         }
         c.allowance.back() = std::max(size, real{1e-30L});

@@ -13,7 +13,7 @@ TEST(Fractal, GradientOfTheSum) {
     data.constants = std::move(c.constants);
     data.constants_per_row = cases::fractal_constants;
     const std::string call = fmt::format(
-        "vec3 g = wr_fractal_gradient(p, constants + 3, constants[0], constants[1], constants[2], {}, footprint,\n"
+        "vec3 g = wr_fractal_gradient(p, constants + 1, constants[0], {}, footprint,\n"
         "                             (mask)(p.x == p.x));",
         cases::fractal_octaves);
     check(c.cases, includes, call, {{"gradient", xyz("g"), Metric::absolute, 1e-3, 1e-3, 1e-9}}, data, INFINITY);
