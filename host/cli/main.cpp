@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include "cli/commands.h"
 #include "wrinkle/error.h"
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is reported as a full disk is
     CLI::App app{
         "wrinkle evaluates bump mapping after the render: a G-buffer in, new normals and a lit picture out.\n"
         "\n"
@@ -38,8 +41,16 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "wrinkle: out of memory\n");
         return 1;
     } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0) {
+            fmt::print(stderr, "wrinkle: cannot write the output\n");
+            return 1;
+        }
         fmt::print(stderr, "wrinkle: unexpected failure, a defect of wrinkle: {}\n", error.what());
         return 3;
+    }
+    if (std::fflush(stdout) != 0) {
+        fmt::print(stderr, "wrinkle: cannot write the output: {}\n", std::strerror(errno));
+        return 1;
     }
     return 0;
 }

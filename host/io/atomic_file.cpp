@@ -93,8 +93,12 @@ void AtomicFile::link_into_place() {
     named_ = true;
 }
 
-void AtomicFile::commit() {
+void AtomicFile::sync() const {
     if (::fsync(descriptor_) != 0) throw Error(failure(std::strerror(errno)));
+}
+
+void AtomicFile::commit() {
+    sync();
     if (!named_) link_into_place();
     if (named_) {
         if (::rename(partial_.c_str(), target_.c_str()) != 0) throw Error(failure(std::strerror(errno)));

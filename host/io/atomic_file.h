@@ -21,6 +21,9 @@ public:
 
     int descriptor() const { return descriptor_; }
 
+    /// Has all of it on disk, still without a name. Throws Error.
+    void sync() const;
+
     /// Puts the complete file on disk and in place of the old one. Throws Error; then the old file is still there.
     void commit();
 

@@ -162,7 +162,8 @@ void ImageWriter::write_rows(std::uint32_t row_begin, std::uint32_t row_end, std
     }
 }
 
-void ImageWriter::finish() {
+void ImageWriter::complete() {
+    if (!impl_->output) return;
     if (impl_->next_row != impl_->size.height) {
         throw Error(
             impl_->file.failure(fmt::format("only {} of {} rows were written", impl_->next_row, impl_->size.height)));
@@ -170,6 +171,11 @@ void ImageWriter::finish() {
     const bool closed = impl_->output->close();
     if (!closed || impl_->proxy.failure() != 0) impl_->fail();
     impl_->output.reset();
+    impl_->file.sync();
+}
+
+void ImageWriter::finish() {
+    complete();
     impl_->file.commit();
 }
 

@@ -40,6 +40,9 @@ public:
     /// in order, without gaps. Throws Error when the disk is full.
     void write_rows(std::uint32_t row_begin, std::uint32_t row_end, std::span<const float* const> planes);
 
+    /// Writes what is left, so that finish() has only to put the file in place: of several files, all or none.
+    void complete();
+
     /// Puts the file in place, synced to disk. Throws Error when rows are missing or the disk is full.
     void finish();
 

@@ -101,6 +101,7 @@ std::string neighbour_helper(const Emitter& emitter, const GeometryText& geometr
         "    valid = valid & wr_finite(u) & wr_finite(v);\n"
         "    vec3 n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
         "(real)(1)));\n"
+        "    n = wr_scale(n, wr_prescale(wr_largest(n)));\n"
         "    mask away;\n"
         "    n = wr_face_viewer(n, {}, &away);\n"
         "    real object = {};\n"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
 
 #include "wrinkle/error.h"
 
@@ -63,6 +64,7 @@ std::uint32_t Emitter::cryptomatte_hash(const std::string& name, const std::stri
 }
 
 std::string literal(double value) {
+    if (!std::isfinite(value)) throw Error(fmt::format("a number of the scene is {}; it must be finite", value));
     std::string digits = fmt::format("{:.17g}", value);
     if (const std::string shorter = fmt::format("{}", value); std::stod(shorter) == value) digits = shorter;
     if (digits.find_first_of(".en") == std::string::npos) digits += ".0";

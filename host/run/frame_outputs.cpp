@@ -91,6 +91,7 @@ void FrameOutputs::write(std::uint32_t begin, std::uint32_t end, const std::map<
 }
 
 void FrameOutputs::finish(std::vector<fs::path>& files) {
+    for (File& file : files_) file.writer.complete();  // a full disk shows here, while every old file is in place
     for (File& file : files_) {
         file.writer.finish();
         files.push_back(file.path);

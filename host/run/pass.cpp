@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "device/guarded.h"
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
 #include "wrinkle/error.h"
@@ -58,16 +59,6 @@ void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::strin
     impl.save();
 }
 
-/// Turns what OpenCL throws into an Error that says what was being done.
-template <class Work>
-auto guarded(const char* what, Work work) {
-    try {
-        return work();
-    } catch (const cl::Error& error) {
-        throw Error(fmt::format("{}: OpenCL reports {} ({})", what, error.what(), error.err()));
-    }
-}
-
 Pass make_pass(const char* what, const Device& device, const Scene& scene, const Frame& frame,
                const PassOptions& options, const PlanOptions& plan_options) {
     return guarded(what,
@@ -103,9 +94,12 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const s
 
 cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                         const std::vector<cl::Event>& wait) {
-    if (rows.first + rows.count > impl_->size.height || rows.count == 0)
-        throw Error(fmt::format("rows {} to {} are not within the frame's {}", rows.first, rows.first + rows.count,
-                                impl_->size.height));
+    const std::uint64_t end = std::uint64_t{rows.first} + rows.count, height = impl_->size.height;
+    if (end > height || rows.count == 0)
+        throw Error(fmt::format("rows {} to {} are not within the frame's {}", rows.first, end, height));
+    if (impl_->plan.neighbours && ((rows.first > 0 && rows.before == 0) || (end < height && rows.after == 0)))
+        throw Error(fmt::format("rows {} to {} need a row before and after them, as the pass reads neighbours",
+                                rows.first, end));
     return guarded("enqueue a pass", [&] { return impl_->enqueue(in, out, rows, wait); });
 }
 

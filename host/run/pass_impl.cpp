@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "run/frame_constants.h"
@@ -45,9 +46,11 @@ cl::Buffer table(const Device& device, std::vector<T> values) {
     return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data()};
 }
 
-const cl::Buffer& plane(const DevicePlanes& planes, const std::string& name) {
+const cl::Buffer& plane(const DevicePlanes& planes, const std::string& name, std::size_t bytes) {
     const auto found = planes.find(name);
     if (found == planes.end()) throw Error(fmt::format("no buffer for the plane \"{}\"", name));
+    if (const auto size = found->second.getInfo<CL_MEM_SIZE>(); size < bytes)
+        throw Error(fmt::format("the buffer of the plane \"{}\" holds {} bytes; {} are needed", name, size, bytes));
     return found->second;
 }
 
@@ -64,6 +67,7 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
     : device(on),
       lighting(scene.lighting),
       size(shape.size),
+      kind(camera_kind(shape.camera, shape.size)),
       plan(plan_for(scene, shape, plan_options)),
       options(wanted) {
     if (options.lanes == 0) options.lanes = options.fp64 ? std::min(device.info.lanes, 8) : device.info.lanes;
@@ -90,6 +94,8 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
 }
 
 void Pass::Impl::set_camera(const Camera& camera) {
+    if (camera_kind(camera, size) != kind)
+        throw Error("the new camera is of another kind (pinhole, parallel, general) than the one the pass is made for");
     const FrameConstants constants = frame_constants(plan, lighting, camera, size);
     const bool wide = options.fp64;
     frame = structs(device, std::vector{constants.frame}, wide);
@@ -104,6 +110,11 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     const std::size_t pixels = std::size_t{rows.count} * size.width;
     const std::size_t items =
         (pixels + static_cast<std::size_t>(options.lanes) - 1) / static_cast<std::size_t>(options.lanes);
+    const std::size_t touched = items * static_cast<std::size_t>(options.lanes);  // whole lane groups
+    const std::size_t before = std::size_t{rows.before} * size.width;
+    const std::size_t in_pixels = before + pixels + std::size_t{rows.after} * size.width;
+    if (in_pixels > std::numeric_limits<cl_uint>::max()) throw Error("a band holds more than 2^32 pixels");
+    const std::size_t in_bytes = std::max(in_pixels, before + touched) * sizeof(float);
     const std::size_t global = (items + kGroup - 1) / kGroup * kGroup;
     std::vector<cl::Event> after = wait;
     for (std::size_t k = 0; k < kernels.size(); ++k) {
@@ -111,13 +122,14 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         cl_uint i = 0;
         for (const cl::Buffer* buffer : {&frame, &origins, &texels, &textures, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
-        for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name));
+        for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));
         for (const std::string& name : plan.kernels[k].scratch)
             kernel.setArg(
                 i++, scratch[static_cast<std::size_t>(std::ranges::find(scratch_names, name) - scratch_names.begin())]);
-        for (const std::string& name : plan.kernels[k].outputs) kernel.setArg(i++, plane(out, name));
-        kernel.setArg(i++, static_cast<cl_uint>(rows.before * size.width));
-        kernel.setArg(i++, static_cast<cl_uint>((rows.before + rows.count + rows.after) * size.width));
+        for (const std::string& name : plan.kernels[k].outputs)
+            kernel.setArg(i++, plane(out, name, touched * bytes_per_output()));
+        kernel.setArg(i++, static_cast<cl_uint>(before));
+        kernel.setArg(i++, static_cast<cl_uint>(in_pixels));
         kernel.setArg(i++, static_cast<cl_uint>(rows.first));
         kernel.setArg(i++, static_cast<cl_uint>(size.width));
         kernel.setArg(i++, static_cast<cl_uint>(pixels));

@@ -13,6 +13,7 @@ struct Pass::Impl {
     Device device;
     Lighting lighting;
     Size size;
+    CameraKind kind;
     Plan plan;
     PassOptions options;
     BuiltProgram built;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <future>
 
+#include "device/guarded.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
@@ -162,7 +163,9 @@ Frame describe_frame(const Scene& scene, int frame) {
     return frame_of(scene, reader, read_frame_camera(scene.camera, reader, frame));
 }
 
-RenderReport render(const Scene& scene, const RenderOptions& options) {
+namespace {
+
+RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     RenderReport report;
     PhaseClock clock;
     const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
@@ -216,6 +219,12 @@ RenderReport render(const Scene& scene, const RenderOptions& options) {
     getrusage(RUSAGE_SELF, &usage);
     report.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     return report;
+}
+
+}  // namespace
+
+RenderReport render(const Scene& scene, const RenderOptions& options) {
+    return guarded("render", [&] { return render_frames(scene, options); });
 }
 
 }  // namespace wrinkle

@@ -34,7 +34,8 @@ struct Frame {
 using HostPlanes = std::map<std::string, std::span<const float>>;
 using HostOutputs = std::map<std::string, std::span<float>>;
 using HostDoubles = std::map<std::string, std::span<double>>;
-/// Each holds at least padded(pixels) floats; what lies beyond `pixels` is overwritten.
+/// Each holds at least padded(pixels) floats, inputs of a band the rows before it on top of that; what lies beyond
+/// `pixels` is overwritten.
 using DevicePlanes = std::map<std::string, cl::Buffer>;
 
 struct PassOptions {

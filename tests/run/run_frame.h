@@ -54,6 +54,17 @@ struct HostFrame {
     HostPlanes planes() const { return {pixels.begin(), pixels.end()}; }
 };
 
+/// A camera whose axes are orthonormal to double accuracy; those of files are to float accuracy, so that inverting the
+/// view matrix and transposing it, as the references do, put points apart by more than a kernel's rounding.
+inline Camera orthonormal(Camera camera) {
+    const auto row = [&](int i) { return V{camera.view[i][0], camera.view[i][1], camera.view[i][2]}; };
+    const Mat4 world = inverse(camera.view);
+    const V eye{world[0][3], world[1][3], world[2][3]};
+    const V x = normalize(row(0)), y = normalize(row(1) - x * dot(x, row(1))), axes[] = {x, y, cross(x, y)};
+    for (int i = 0; i < 3; ++i) camera.view[i] = {axes[i].x, axes[i].y, axes[i].z, -dot(axes[i], eye)};
+    return camera;
+}
+
 /// data/gbuffer/small.exr, every channel of it.
 inline HostFrame small_frame() {
     const GBufferReader reader(data_folder / "gbuffer/small.exr");
@@ -61,7 +72,7 @@ inline HostFrame small_frame() {
     source.file = data_folder / "gbuffer/small.camera.json";
     HostFrame out;
     out.frame.size = reader.size();
-    out.frame.camera = read_camera(source, reader);
+    out.frame.camera = orthonormal(read_camera(source, reader));
     for (const std::string& name : reader.cryptomatte().names())
         out.frame.cryptomatte[name] = reader.cryptomatte().id(name);
     std::vector<std::string> names = reader.planes();

@@ -1,0 +1,177 @@
+// Frames of odd sizes, with broken pixels, under every kind of camera and geometry, against the double evaluator.
+#include <cmath>
+#include <random>
+
+#include "tests/run/run_frame.h"
+
+namespace wrinkle::test {
+namespace {
+
+using reference::CameraRays;
+using reference::orthographic_camera;
+using reference::plane_frame;
+using reference::test_camera;
+using reference::tilted_camera;
+
+const V slanted = normalize(V{0.1, -0.2, 1});
+
+/// A normal map on the UV plane, a planar height map, noise; textures of data/.
+Scene small_scene() {
+    Scene scene;
+    NormalMapLayer weave;
+    weave.texture.file = data_folder / "textures/weave_normal.png";
+    HeightMapLayer cobbles;
+    cobbles.texture.file = data_folder / "textures/cobbles_height.png";
+    cobbles.uv = {.source = UvSource::planar, .scale = {0.2, 0.2}};
+    scene.layers.resize(3);
+    scene.layers[0].bump = weave, scene.layers[0].name = "weave";
+    scene.layers[1].bump = cobbles, scene.layers[1].name = "cobbles", scene.layers[1].scale = 0.05;
+    scene.layers[2].bump = NoiseLayer{.frequency = 1}, scene.layers[2].name = "noise", scene.layers[2].scale = 0.1;
+    scene.output = {.surface_gradient = true, .dp_dx = true, .dp_dy = true, .marked = true};
+    return scene;
+}
+
+/// Everything that small_scene writes, against the reference.
+void expect_agreement(const std::string& what, const HostFrame& frame, const Scene& scene) {
+    const Truth truth(frame, scene);
+    const Pixels got = evaluate_on(frame, scene);
+    expect_within(what, normal_error(got, truth), {1e-4, 1e-3, 3e-3}, "degrees");
+    EXPECT_EQ(marked_differences(got, truth), 0u) << what;
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        const auto& want = truth.pixels[i];
+        EXPECT_LE(length(vec_at(got, "dp_dx", i) - want.base.dp_dx), 1e-4 * length(want.base.dp_dx)) << what << i;
+        EXPECT_LE(length(vec_at(got, "dp_dy", i) - want.base.dp_dy), 1e-4 * length(want.base.dp_dy)) << what << i;
+        EXPECT_LE(length(vec_at(got, "surface_gradient", i) - want.surface_gradient), 1e-4) << what << i;
+    }
+}
+
+TEST(Frames, OfEverySize) {
+    for (const Size size : {Size{37, 23}, {1, 1}, {1, 19}, {19, 1}, {2, 67}, {131, 2}}) {
+        Camera camera = test_camera();  // pixels of one size
+        camera.proj[0][0] *= 60.0 / size.width;
+        camera.proj[1][1] *= 45.0 / size.height;
+        expect_agreement(fmt::format("{} x {}", size.width, size.height),
+                         HostFrame(plane_frame(camera, size, slanted), camera), small_scene());
+    }
+}
+
+TEST(Frames, OfBackgroundOnly) {
+    HostFrame frame(plane_frame(test_camera(), {13, 7}, slanted), test_camera());
+    frame.add("depth", 1e10f);
+    const Pixels got = evaluate_on(frame, small_scene());
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        EXPECT_EQ(got.at("marked")[i], Marked::invalid);
+        for (const char* name : {"normal.x", "normal.y", "normal.z"})
+            EXPECT_EQ(got.at(name)[i], frame.pixels.at(name)[i]);
+        for (const char* name : {"surface_gradient.x", "dp_dx.y", "dp_dy.z"}) EXPECT_EQ(got.at(name)[i], 0);
+    }
+}
+
+TEST(Frames, WithBrokenPixels) {
+    constexpr unsigned seed = 7;
+    fmt::print("seed {}\n", seed);
+    std::mt19937 random(seed);
+    HostFrame frame(plane_frame(test_camera(), {61, 17}, slanted), test_camera());
+    const float broken[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e10f, 1e-42f, 3e38f};
+    for (const char* name : {"normal.x", "normal.y", "normal.z", "depth", "uv.u", "uv.v"})
+        for (const float value : broken)
+            for (int k = 0; k < 3; ++k)
+                // A denormal depth is 0 on devices that flush; kernels call it invalid everywhere.
+                if (std::string(name) != "depth" || value == 0 || std::abs(value) > 1e-38f)
+                    frame.pixels.at(name)[random() % frame.count()] = value;
+    for (int k = 0; k < 20; ++k) {  // no normal at all; back-facing ones
+        const std::size_t i = random() % frame.count();
+        for (const char* name : {"normal.x", "normal.y", "normal.z"}) frame.pixels.at(name)[i] *= k < 10 ? 0.0f : -3.0f;
+    }
+    const Scene scene = small_scene();
+    const Pixels got = evaluate_on(frame, scene);
+    const Truth truth(frame, scene);
+    for (const auto& [name, values] : got)
+        for (const float value : values) ASSERT_TRUE(std::isfinite(value)) << name;
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        const int marked = static_cast<int>(got.at("marked")[i]);
+        EXPECT_EQ(marked & ~Marked::overflow, truth.pixels[i].marked) << i;
+        if (marked == Marked::invalid || (marked & Marked::overflow) != 0) continue;
+        errors.push_back(angle_degrees(vec_at(got, "normal", i), truth.pixels[i].normal));
+    }
+    const Spread spread(std::move(errors));
+    print("broken pixels among sound ones", spread, "degrees");
+    EXPECT_EQ(spread.non_finite, 0u);
+    EXPECT_LE(spread.p99, 1e-2);
+}
+
+TEST(Frames, FromPositionsInsteadOfDepth) {
+    HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+    frame.remove("depth");
+    expect_agreement("positions", frame, small_scene());
+}
+
+TEST(Frames, FromDistancesAlongTheRay) {
+    HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+    const CameraRays<double> rays(frame.frame.camera, frame.frame.size);
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        float& depth = frame.pixels.at("depth")[i];
+        depth = static_cast<float>(length(rays.at_depth(double(i % 31) + 0.5, double(i / 31) + 0.5, depth)));
+    }
+    frame.frame.ray_depth = true;
+    expect_agreement("ray depth", frame, small_scene());
+}
+
+TEST(Frames, UnderOtherCameras) {
+    expect_agreement(
+        "shifted pinhole",
+        HostFrame(plane_frame(reference::shifted_camera(), {31, 20}, slanted), reference::shifted_camera()),
+        small_scene());
+    expect_agreement("orthographic",
+                     HostFrame(plane_frame(orthographic_camera(), {31, 20}, slanted), orthographic_camera()),
+                     small_scene());
+    HostFrame tilted(plane_frame(tilted_camera(), {31, 20}, slanted), tilted_camera());
+    tilted.remove("depth");
+    expect_agreement("general projection, positions", tilted, small_scene());
+}
+
+TEST(Frames, UvDerivativesOfPlanesAreTakenAsTheyAre) {
+    for (const bool tangents : {false, true}) {
+        HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+        if (tangents) {  // uv = (x, y) / 4
+            for (const char* name : {"dp_du.x", "dp_dv.y"}) frame.add(name, 4);
+            for (const char* name : {"dp_du.y", "dp_dv.x"}) frame.add(name);
+            frame.add("dp_du.z", static_cast<float>(-4 * slanted.x / slanted.z));
+            frame.add("dp_dv.z", static_cast<float>(-4 * slanted.y / slanted.z));
+        } else {
+            for (const char* name : {"duv_dx.u", "duv_dx.v", "duv_dy.u", "duv_dy.v"}) frame.add(name);
+            const Truth truth(frame, {});
+            for (std::size_t i = 0; i < frame.count(); ++i) {
+                const auto& d = truth.pixels[i].base;
+                frame.pixels.at("duv_dx.u")[i] = static_cast<float>(d.dp_dx.x / 4);
+                frame.pixels.at("duv_dx.v")[i] = static_cast<float>(d.dp_dx.y / 4);
+                frame.pixels.at("duv_dy.u")[i] = static_cast<float>(d.dp_dy.x / 4);
+                frame.pixels.at("duv_dy.v")[i] = static_cast<float>(d.dp_dy.y / 4);
+            }
+        }
+        expect_agreement(tangents ? "dp_du, dp_dv" : "duv_dx, duv_dy", frame, small_scene());
+        EXPECT_FALSE(evaluate(device(), small_scene(), frame.frame).needs_neighbours());
+    }
+}
+
+TEST(Frames, InvertedTextureMaskIsZeroWithoutUvDerivative) {
+    HostFrame frame(plane_frame(test_camera(), {9, 9}, slanted), test_camera());
+    frame.add("object");
+    frame.pixels.at("object")[40] = 1;  // the middle pixel has no neighbour of its object
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].bump = ConstantLayer{{0.3, 0, 0}};
+    scene.layers[0].mask.texture = MaskTexture{data_folder / "textures/seal_height.png", {}};
+    scene.layers[0].mask.invert = true;
+    scene.output.surface_gradient = scene.output.marked = true;
+    const Truth truth(frame, scene);
+    const Pixels got = evaluate_on(frame, scene);
+    EXPECT_EQ(marked_differences(got, truth), 0u);
+    EXPECT_EQ(got.at("marked")[40], Marked::no_uv_derivative);
+    EXPECT_EQ(length(vec_at(got, "surface_gradient", 40)), 0);
+    expect_within("inverted texture mask", normal_error(got, truth), {1e-4, 1e-3, 1e-3}, "degrees");
+}
+
+}  // namespace
+}  // namespace wrinkle::test
