@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
         "  wrinkle devices                             where it can run\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);  // none at all is refused below, after arguments that mean nothing
     app.failure_message(CLI::FailureMessage::help);
     wrinkle::cli::add_run(app);
     wrinkle::cli::add_info(app);
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_devices(app);
     try {
         app.parse(argc, argv);
+        if (app.get_subcommands().empty()) throw CLI::RequiredError("A command (run, info, explain or devices)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());

@@ -13,14 +13,14 @@ std::size_t DescriptorProxy::write(const void* data, std::size_t size) {
 }
 
 std::size_t DescriptorProxy::pwrite(const void* data, std::size_t size, std::int64_t offset) {
-    std::size_t written = 0;
+    std::size_t written = discarding_ || failure_ != 0 ? size : 0;
     while (written < size) {
         const auto count = ::pwrite(descriptor_, static_cast<const char*>(data) + written, size - written,
                                     offset + static_cast<std::int64_t>(written));
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) {
             if (failure_ == 0) failure_ = count < 0 ? errno : EIO;
-            break;
+            return size;
         }
         written += static_cast<std::size_t>(count);
     }

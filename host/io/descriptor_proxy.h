@@ -5,7 +5,8 @@
 namespace wrinkle::io {
 
 /// Lets OpenImageIO write to an open file descriptor, and remembers why the first write failed: "No space left on
-/// device" is lost on the way through the image libraries. The descriptor stays the caller's.
+/// device" is lost on the way through the image libraries. What comes after a failure is dropped, so that no library
+/// prints a message of its own; ask failure(). The descriptor stays the caller's.
 class DescriptorProxy : public OIIO::Filesystem::IOProxy {
 public:
     explicit DescriptorProxy(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
@@ -16,10 +17,12 @@ public:
     std::size_t size() const override;
 
     int failure() const { return failure_; }  ///< errno of the first write that failed, or 0
+    void discard() { discarding_ = true; }    ///< drops all that is still written
 
 private:
     int descriptor_;
     int failure_ = 0;
+    bool discarding_ = false;
 };
 
 }  // namespace wrinkle::io

@@ -75,7 +75,12 @@ struct ImageWriter::Impl {
     }
 
     ~Impl() {
-        if (output) output->close();  // the proxy must outlive it; what it still writes goes with the unnamed file
+        if (!output) return;
+        proxy.discard();  // nobody will see what close() still writes
+        const std::vector<float> blank(png ? size.width * names.size() : 0);
+        for (auto row = next_row; png && row < size.height; ++row)  // libpng prints a complaint about missing rows
+            output->write_scanline(static_cast<int>(row), 0, OIIO::TypeFloat, blank.data());
+        output->close();
     }
 
     [[noreturn]] void fail() {
@@ -156,7 +161,8 @@ void ImageWriter::write_rows(std::uint32_t row_begin, std::uint32_t row_end, std
         impl_->interleave(planes, std::size_t{row - row_begin} * impl_->size.width,
                           std::size_t{end - row} * impl_->size.width);
         if (!impl_->output->write_scanlines(static_cast<int>(row), static_cast<int>(end), 0, OIIO::TypeFloat,
-                                            impl_->scratch.data()))
+                                            impl_->scratch.data()) ||
+            impl_->proxy.failure() != 0)
             impl_->fail();
         impl_->next_row = end;
     }

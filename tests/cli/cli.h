@@ -1,0 +1,84 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <regex>
+
+#include "tests/io/files.h"
+
+/// Runs the built program as a user would.
+namespace wrinkle::test {
+
+namespace fs = std::filesystem;
+
+inline const fs::path data_folder = fs::path(WRINKLE_SOURCE_DIR) / "data";
+
+inline std::string read_text(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Ran {
+    int code = -1;    ///< exit status; 128 + signal when one ended it
+    std::string out;  ///< what it printed
+    std::string err;
+};
+
+/// A folder to run the program in, with a scene to run.
+class Workplace {
+public:
+    /// `before`: shell text in front of the program, such as "ulimit -f 8;" or "NAME=value".
+    Ran run(const std::string& arguments, const std::string& before = {}) const {
+        const std::string command = fmt::format("cd '{}' && {} '{}' {} > stdout.txt 2> stderr.txt < /dev/null",
+                                                (folder_ / "").string(), before, WRINKLE_CLI, arguments);
+        const int status = std::system(command.c_str());
+        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        Ran ran{code, read_text(folder_ / "stdout.txt"), read_text(folder_ / "stderr.txt")};
+        fs::remove(folder_ / "stdout.txt");
+        fs::remove(folder_ / "stderr.txt");
+        return ran;
+    }
+
+    fs::path operator/(const std::string& name) const { return folder_ / name; }
+
+    /// A scene on the small sample frame; `layers` is TOML text.
+    void write_scene(const std::string& layers, const std::string& gbuffer = data_file("gbuffer/small.exr"),
+                     const std::string& camera = "file = \"" + data_file("gbuffer/small.camera.json") + "\"",
+                     const std::string& name = "scene.toml") const {
+        write_text(folder_ / name,
+                   fmt::format("[gbuffer]\nfile = \"{}\"\n[camera]\n{}\n{}\n", gbuffer, camera, layers));
+    }
+
+    /// Names below `name`, sorted; nothing where there is no such folder.
+    std::vector<std::string> files(const std::string& name) const {
+        std::vector<std::string> names;
+        if (fs::is_directory(folder_ / name))
+            for (const auto& entry : fs::directory_iterator(folder_ / name)) names.push_back(entry.path().filename());
+        std::ranges::sort(names);
+        return names;
+    }
+
+    static std::string data_file(const std::string& name) { return (data_folder / name).string(); }
+
+private:
+    TempFolder folder_;
+};
+
+inline const std::string tilt = "[[layer]]\nname = \"tilt\"\nkind = \"constant\"\ngradient = [0.3, 0, 0]\n";
+inline const std::string lit =
+    "[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0.66, 0.42, -0.62]\n";
+
+/// A failed run: a code other than 0 and no signal, a message of wrinkle's own that names `parts`, nothing on stdout.
+inline void expect_failed(const Ran& ran, const std::vector<std::string>& parts) {
+    EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code << ": " << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("wrinkle: ")) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    expect_mentions(ran.err, parts);
+    for (const char* raw : {"std::", "terminate", "what()", "defect", "basic_string", "filesystem error", "CL_", "clB",
+                            "clE", "exception", "json.", "Iex", "OIIO"})
+        EXPECT_EQ(ran.err.find(raw), std::string::npos) << "\"" << raw << "\" of a library in: " << ran.err;
+}
+
+}  // namespace wrinkle::test

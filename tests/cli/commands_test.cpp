@@ -1,0 +1,125 @@
+// What the program prints and writes when all is well.
+#include <nlohmann/json.hpp>
+
+#include "io/gbuffer_reader.h"
+#include "tests/cli/cli.h"
+
+namespace wrinkle::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Commands, HelpAndVersion) {
+    const Workplace place;
+    const Ran help = place.run("--help");
+    EXPECT_EQ(help.code, 0);
+    expect_mentions(help.out, {"run", "info", "explain", "devices", "Examples"});
+    const Ran version = place.run("--version");
+    EXPECT_EQ(version.code, 0);
+    EXPECT_TRUE(std::regex_match(version.out, std::regex("wrinkle \\d+\\.\\d+\\.\\d+\n"))) << version.out;
+    for (const char* command : {"run", "info", "explain", "devices"})
+        EXPECT_EQ(place.run(std::string(command) + " --help").code, 0) << command;
+    for (const auto& [arguments, named] : std::map<std::string, std::string>{
+             {"", "command"}, {"paint", "paint"}, {"run", "SCENE"}, {"run a.toml --fast", "--fast"}}) {
+        const Ran ran = place.run(arguments);
+        EXPECT_EQ(ran.code, 2) << arguments;
+        expect_failed(ran, {named, "--help"});
+    }
+}
+
+TEST(Commands, Devices) {
+    const Workplace place;
+    const auto list = nlohmann::json::parse(place.run("devices --json").out);
+    ASSERT_FALSE(list.empty());
+    EXPECT_GT(list[0].at("lanes").get<int>(), 0);
+    expect_mentions(place.run("devices").out, {"0: " + list[0].at("name").get<std::string>(), "driver", "double"});
+}
+
+TEST(Commands, Info) {
+    const Workplace place;
+    const std::string file = Workplace::data_file("gbuffer/small.exr");
+    const Ran text = place.run("info '" + file + "'");
+    EXPECT_EQ(text.code, 0) << text.err;
+    expect_mentions(text.out, {"120 x 68", "position", "Suzanne", "reproject", "normal_map"});
+    const auto json = nlohmann::json::parse(place.run("info --json '" + file + "'").out);
+    EXPECT_EQ(json.at("width"), 120);
+    EXPECT_LT(json.at("camera").at("residual_pixels").at("median").get<double>(), 0.1);
+}
+
+TEST(Commands, Explain) {
+    const Workplace place;
+    place.write_scene(tilt + lit);
+    const Ran text = place.run("explain scene.toml");
+    EXPECT_EQ(text.code, 0) << text.err;
+    expect_mentions(text.out, {"decode the G-buffer", "constant \"tilt\"", "resolve", "light", "write", "kernel void",
+                               "ops/pixel", "bytes of planes"});
+    EXPECT_EQ(place.run("explain --no-source scene.toml").out.find("kernel void"), std::string::npos);
+    expect_mentions(place.run("explain --full scene.toml").out, {"#line 1 \"vec.clh\""});
+    const auto json = nlohmann::json::parse(place.run("explain --json scene.toml").out);
+    EXPECT_EQ(json.at("sections").size(), 5u);
+    EXPECT_EQ(json.at("sections")[1].at("title"), "constant \"tilt\"");
+}
+
+TEST(Commands, RunWritesPictures) {
+    const Workplace place;
+    place.write_scene(tilt + lit);
+    const Ran text = place.run("run scene.toml -o deep/out");
+    ASSERT_EQ(text.code, 0) << text.err;
+    EXPECT_EQ(place.files("deep/out"), (Names{"lit.exr", "lit.png", "normal.exr", "normal.png"}));
+    expect_mentions(text.out, {"1 frame", "1 active layer", "kernels", "ns/pixel", "deep/out/normal.exr", "reproject"});
+
+    const Ran json = place.run("run scene.toml -o out --json --repeat 3 --threads 1");
+    const auto report = nlohmann::json::parse(json.out);
+    EXPECT_EQ(report.at("pixels"), 120 * 68);
+    EXPECT_EQ(report.at("files").size(), 4u);
+    EXPECT_TRUE(report.at("cache_hit").get<bool>()) << "the run before built the same program";
+    for (const std::string name : {"lit.png", "normal.png"})  // EXR files hold the date
+        EXPECT_TRUE(read_text(place / ("out/" + name)) == read_text(place / ("deep/out/" + name))) << name;
+
+    const Ran quiet = place.run("run scene.toml -o out --quiet");
+    EXPECT_EQ(quiet.code, 0);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    EXPECT_EQ(place.files("out").size(), 4u) << "no leftovers beside the pictures";
+}
+
+TEST(Commands, RunPassesChannelsThrough) {
+    const Workplace place;
+    place.write_scene(tilt + "[output]\npassthrough = true\nmarked = true\npng = false\n");
+    const Ran ran = place.run("run scene.toml");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(place.files("out"), Names{"normal.exr"});
+    const GBufferReader in(data_folder / "gbuffer/small.exr"), out(place / "out/normal.exr");
+    const std::string depth = "channel:" + in.roles().channel_of.at("depth");
+    ASSERT_TRUE(out.has_plane(depth));
+    std::vector<float> before(120 * 68), after(120 * 68);
+    float *const from[] = {before.data()}, *const to[] = {after.data()};
+    in.read_rows(0, 68, std::vector{depth}, from);
+    out.read_rows(0, 68, std::vector{depth}, to);
+    EXPECT_EQ(before, after);
+}
+
+TEST(Commands, RunOverASequence) {
+    const Workplace place;
+    for (const char* number : {"0003", "0004", "0007"}) {
+        fs::copy_file(data_folder / "gbuffer/small.exr", place / fmt::format("shot.{}.exr", number));
+        fs::copy_file(data_folder / "gbuffer/small.camera.json", place / fmt::format("cam.{}.json", number));
+    }
+    place.write_scene(tilt, "shot.####.exr", "file = \"cam.####.json\"");
+    const Ran ran = place.run("run scene.toml --frames 3-4,7");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(place.files("out"), (Names{"normal.0003.exr", "normal.0003.png", "normal.0004.exr", "normal.0004.png",
+                                         "normal.0007.exr", "normal.0007.png"}));
+    EXPECT_TRUE(read_text(place / "out/normal.0003.png") == read_text(place / "out/normal.0007.png"));
+    EXPECT_EQ(place.run("explain scene.toml --frame 7 --no-source").code, 0);
+
+    expect_failed(place.run("run scene.toml -o other"), {"shot.####.exr", "--frames"});
+    expect_failed(place.run("run scene.toml -o other --frames 5"), {"shot.0005.exr"});
+    expect_failed(place.run("run scene.toml -o other --frames 7-3"), {"7-3"});
+    expect_failed(place.run("run scene.toml -o other --frames 3,3"), {"twice"});
+    place.write_scene(tilt);
+    expect_failed(place.run("run scene.toml -o other --frames 1"), {"--frames", "####"});
+    EXPECT_FALSE(fs::exists(place / "other"));
+}
+
+}  // namespace
+}  // namespace wrinkle::test
