@@ -84,30 +84,23 @@ std::string neighbour_planes(const GeometryText& geometry, bool object, bool dec
     return text;
 }
 
-std::string neighbour_helper(const Emitter& emitter, const GeometryText& geometry, bool object) {
+/// A neighbour needs no mask of its own bits: what is not finite fails the comparisons of wr_neighbour_step.
+std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const std::string load = "wr_load_near({}, at, pixels)";
+    const bool depth = geometry.planes.size() == 1;
     std::string text =
         "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated.\n"
-        "wr_long_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
+        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
         neighbour_planes(geometry, object, true) + ")\n{\n";
-    text += load_normal(load, "    ") + load_geometry(geometry, load, "    ");
+    text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.position + "\n";
     text += fmt::format(
-        "    mask valid = wr_valid_normal(nx, ny, nz) & {} & (x > 0) & (y > 0) & (x < frame->width) & "
-        "(y < frame->height);\n",
-        geometry.valid);
-    text += sanitize(geometry, "    ") + "    " + geometry.position + "\n";
-    text += fmt::format(
-        "    floats u = wr_load_near(in_uv_u, at, pixels), v = wr_load_near(in_uv_v, at, pixels);\n"
-        "    valid = valid & wr_finite(u) & wr_finite(v);\n"
-        "    vec3 n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
-        "(real)(1)));\n"
-        "    n = wr_scale(n, wr_prescale(wr_largest(n)));\n"
-        "    mask away;\n"
-        "    n = wr_face_viewer(n, {}, &away);\n"
+        "    mask valid = (x > 0) & (y > 0) & (x < frame->width) & (y < frame->height){};\n"
+        "    vec2 uv = wr_v2(wr_real(wr_load_near(in_uv_u, at, pixels)), wr_real(wr_load_near(in_uv_v, at, pixels)));\n"
+        "    vec3 n = wr_v3(wr_real(nx), wr_real(ny), wr_real(nz));\n"
         "    real object = {};\n"
-        "    vec2 uv = wr_select(valid, wr_v2(wr_real(u), wr_real(v)), wr_v2((real)(0), (real)(0)));\n"
         "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",
-        view_text(emitter), object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
+        depth ? " & (wr_real(z) > 0) & (wr_real(z) < WR_BACKGROUND_DEPTH)" : "",
+        object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
     return text;
 }
 
@@ -154,13 +147,13 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
     } else {
         const bool object = emitter.has("object");
         if (object) section.inputs.insert("object");
-        emitter.helpers += neighbour_helper(emitter, geometry, object);
+        emitter.helpers += neighbour_helper(geometry, object);
         emitter.plan.neighbours = true;
         const std::string planes = neighbour_planes(geometry, object, false);
         text +=
             "        long here = at.in, row = width;\n"
             "        mask usable = uv_valid;\n"
-            "        wr_neighbour self = {wr_v2(wr_real(u), wr_real(v)), p, n, " +
+            "        wr_neighbour self = {wr_v2(wr_real(u), wr_real(v)), p, unturned, " +
             std::string(object ? "wr_load(in_object, at.in)" : "0") + ", uv_valid};\n";
         const struct {
             const char *before, *after, *dp, *member;
@@ -172,7 +165,7 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
                 "                                       wr_neighbour_at(frame, {1}{4}), {2}, &usable);\n",
                 axis.before, axis.after, axis.dp, axis.member, planes);
         text += "        uv_valid = usable;\n";
-        section.operations += 420;
+        section.operations += 260;
     }
     text +=
         "        marked += (valid & !uv_valid) ? (real)(4) : (real)(0);\n"
@@ -220,7 +213,8 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
         text +=
             "        n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
             "(real)(1)));\n"
-            "        n = wr_normalize(n);\n";
+            "        n = wr_normalize(n);\n"
+            "        vec3 unturned = n;\n";
         text += "        {\n" + face_viewer_text(emitter) +
                 "        marked += (valid & away) ? (real)(2) : (real)(0);\n        }\n";
         section.writes.insert("n");

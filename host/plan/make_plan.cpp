@@ -25,7 +25,7 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
             ++i;
             continue;
         }
-        const std::size_t count = layers_together(layers, i);
+        const std::size_t count = emitter.options.split ? 1 : layers_together(layers, i);
         std::vector<const Layer*> together;
         for (std::size_t k = 0; k < count; ++k) together.push_back(&layers[i + k]);
         Stage& stage = stages.back();

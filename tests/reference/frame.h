@@ -108,7 +108,10 @@ private:
     UvPixel<T> uv_pixel(std::size_t i, const Decoded<T>& d) const {
         std::optional<float> object;
         if (!object_.empty()) object = object_[i];
-        return {d.valid, object, d.normal, d.position, uv(i)};
+        // A length beyond 1e19 or below 1e-19 is no normal to compare with, though it may be resolved.
+        const T size = length(raw_normal(i));
+        const bool comparable = d.valid && size > T(1e-19L) && size < T(1e19L);
+        return {comparable, object, comparable ? raw_normal(i) * (T(1) / size) : Vec<T>{}, d.position, uv(i)};
     }
 
     /// Pixels i + stride and i - stride lie at index + 1 and index - 1 of `count` along the axis.

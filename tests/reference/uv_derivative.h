@@ -11,7 +11,7 @@ template <class T>
 struct UvPixel {
     bool valid = false;
     std::optional<float> object;  ///< nothing when the G-buffer has no object plane
-    Vec<T> normal;                ///< unit, towards the viewer
+    Vec<T> normal;                ///< as it came, but unit
     Vec<T> position;
     Vec2<T> uv;
 };
