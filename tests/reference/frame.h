@@ -108,10 +108,15 @@ private:
     UvPixel<T> uv_pixel(std::size_t i, const Decoded<T>& d) const {
         std::optional<float> object;
         if (!object_.empty()) object = object_[i];
-        // A length beyond 1e19 or below 1e-19 is no normal to compare with, though it may be resolved.
+        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position, uv(i)};
+    }
+
+    /// As a neighbour: a normal longer than 1e19 or shorter than 1e-19 is not compared with.
+    UvPixel<T> neighbour(std::size_t i) const {
+        UvPixel<T> pixel = uv_pixel(i, decode(i));
         const T size = length(raw_normal(i));
-        const bool comparable = d.valid && size > T(1e-19L) && size < T(1e19L);
-        return {comparable, object, comparable ? raw_normal(i) * (T(1) / size) : Vec<T>{}, d.position, uv(i)};
+        pixel.valid = pixel.valid && size > T(1e-19L) && size < T(1e19L);
+        return pixel;
     }
 
     /// Pixels i + stride and i - stride lie at index + 1 and index - 1 of `count` along the axis.
@@ -119,9 +124,9 @@ private:
                                            std::size_t count, Vec<T> dp) const {
         const UvPixel<T> centre = uv_pixel(i, here);
         std::optional<Vec2<T>> forward, backward;
-        if (index + 1 < count) forward = uv_difference(centre, uv_pixel(i + stride, decode(i + stride)), dp);
+        if (index + 1 < count) forward = uv_difference(centre, neighbour(i + stride), dp);
         if (index > 0) {
-            backward = uv_difference(centre, uv_pixel(i - stride, decode(i - stride)), dp);
+            backward = uv_difference(centre, neighbour(i - stride), dp);
             if (backward) backward = *backward * T(-1);
         }
         return combine_differences(forward, backward);
