@@ -28,9 +28,13 @@ void print_text(const GBufferInfo& info) {
                        : fmt::format("{}{}", role.channels.front(), role.channels.size() > 1 ? " ..." : ""),
                    role.min, role.max, 100.0 * static_cast<double>(role.invalid) / static_cast<double>(info.pixels()));
     if (info.packed_normals) fmt::print("  normals are stored in [0,1] and unpacked\n");
-    if (info.roles.has_role("depth"))
-        fmt::print("  depth is {}\n",
-                   info.roles.depth == DepthKind::ray ? "the distance along the ray" : "planar (along the view axis)");
+    if (info.roles.has_role("depth")) {
+        const bool measured = info.camera && info.camera->depth;
+        const DepthKind kind = measured ? *info.camera->depth : info.roles.depth;
+        fmt::print("  depth is {} ({})\n",
+                   kind == DepthKind::ray ? "the distance along the ray" : "planar (along the view axis)",
+                   measured ? "measured against the positions" : "by the writer");
+    }
     if (info.roles.screen_space_normals) fmt::print("  normals are in camera space; give a world-space role\n");
     if (!info.cryptomatte_names.empty()) fmt::print("  Cryptomatte names: {}\n", join(info.cryptomatte_names));
 

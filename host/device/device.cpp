@@ -73,16 +73,17 @@ std::vector<DeviceInfo> list_devices() {
 Device Device::open(const std::string& wanted) {
     const std::vector<cl::Device> devices = all_devices();
     const std::string name = lower(wanted);
+    const bool number = name.find_first_not_of("0123456789") == std::string::npos;
     std::string listing;
     const cl::Device* chosen = nullptr;
     for (std::size_t i = 0; i < devices.size() && chosen == nullptr; ++i) {
         const DeviceInfo info = describe(devices[i]);
         listing += fmt::format("\n  {}: {} ({}, {})", i, info.name, info.type, info.platform);
-        const bool match = wanted.empty()
-                               ? info.type == "cpu"
-                               : name == fmt::format("{}", i) || name == info.type ||
-                                     (name.size() > 1 && lower(info.name).find(name) != std::string::npos) ||
-                                     (name.size() > 1 && lower(info.platform).find(name) != std::string::npos);
+        const bool match =
+            wanted.empty() ? info.type == "cpu"
+                           : name == fmt::format("{}", i) || name == info.type ||
+                                 (!number && name.size() > 1 && lower(info.name).find(name) != std::string::npos) ||
+                                 (!number && name.size() > 1 && lower(info.platform).find(name) != std::string::npos);
         if (match) chosen = &devices[i];
     }
     if (chosen == nullptr && wanted.empty()) chosen = &devices.front();
@@ -97,7 +98,5 @@ Device Device::adopt(const cl::Context& context, const cl::CommandQueue& queue) 
     const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
     return {device, context, queue, describe(device)};
 }
-
-bool Device::shares_memory() const { return device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE; }
 
 }  // namespace wrinkle

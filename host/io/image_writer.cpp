@@ -31,16 +31,18 @@ bool describes_storage(std::string_view name) {
     return false;
 }
 
-bool is_cryptomatte(const std::string& channel) { return io::contains_ignoring_case(channel, "crypto"); }
+/// Ids, and what the caller wants whole.
+bool keeps_bits(const std::string& channel, const ImageOptions& options) {
+    return options.full.contains(channel) || io::contains_ignoring_case(channel, "crypto");
+}
 
 OIIO::ImageSpec exr_spec(Size size, const std::vector<std::string>& channels, const ImageOptions& options) {
     OIIO::ImageSpec spec(static_cast<int>(size.width), static_cast<int>(size.height), static_cast<int>(channels.size()),
                          options.half ? OIIO::TypeHalf : OIIO::TypeFloat);
     spec.channelnames = channels;
-    if (options.half && std::ranges::any_of(channels, is_cryptomatte)) {
-        for (const auto& channel : channels) {
-            spec.channelformats.push_back(is_cryptomatte(channel) ? OIIO::TypeFloat : OIIO::TypeHalf);
-        }
+    if (options.half) {
+        for (const auto& channel : channels)
+            spec.channelformats.push_back(keeps_bits(channel, options) ? OIIO::TypeFloat : OIIO::TypeHalf);
     }
     for (const auto& attribute : options.metadata.data().list) {
         if (!describes_storage(attribute.name().string())) spec.extra_attribs.add_or_replace(attribute);
@@ -64,7 +66,7 @@ struct ImageWriter::Impl {
                                           static_cast<int>(names.size()), OIIO::TypeUInt8)
                         : exr_spec(size, names, options);
         if (png && options.png == PngEncoding::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-        for (const auto& name : names) keep_finite.push_back(!png && options.half && !is_cryptomatte(name));
+        for (const auto& name : names) keep_finite.push_back(!png && options.half && !keeps_bits(name, options));
         exposure = static_cast<float>(std::exp2(options.exposure));
         output = OIIO::ImageOutput::create(png ? "png" : "openexr", &proxy);
         if (!output || !output->set_ioproxy(&proxy)) {

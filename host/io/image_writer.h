@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ enum class PngEncoding {
 };
 
 struct ImageOptions {
-    bool half = false;  ///< EXR: 16-bit floats, finite values kept finite; cryptomatte channels stay 32-bit
-    Metadata metadata;  ///< EXR: header attributes; those that describe the old file's storage are left out
+    bool half = false;  ///< EXR: 16-bit floats, finite values kept finite; cryptomatte channels stay 32-bit ...
+    std::set<std::string> full;  ///< ... and so do these
+    Metadata metadata;           ///< EXR: header attributes; those that describe the old file's storage are left out
     PngEncoding png = PngEncoding::srgb;
     double exposure = 0;  ///< stops; PngEncoding::srgb
 };

@@ -56,8 +56,9 @@ Section emit_lighting(Emitter& emitter) {
                ? "        vec3 v = wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)));\n"
                : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n";
     text += planes({"albedo.r", "albedo.g", "albedo.b"})
-                ? "        vec3 albedo = wr_v3(wr_load(in_albedo_r, at.in), wr_load(in_albedo_g, at.in), "
-                  "wr_load(in_albedo_b, at.in));\n"
+                ? "        vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
+                  "                            wr_mask_channel(wr_load(in_albedo_g, at.in)),\n"
+                  "                            wr_mask_channel(wr_load(in_albedo_b, at.in)));  // [0,1]; NaN is 0\n"
                 : "        vec3 albedo = wr_v3(lighting->albedo);\n";
     text += planes({"roughness"}) ? "        real roughness = wr_load(in_roughness, at.in);\n"
                                   : "        real roughness = lighting->roughness;\n";

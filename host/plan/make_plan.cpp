@@ -62,7 +62,8 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         for (Section& layer : stage.layers) add(std::move(layer), static_cast<int>(s));
         const bool more = s + 1 < stages.size();
         if (emitter.options.write_normal && (stage.surface || stage.volume || more)) {
-            const std::set<std::string> next = more ? stages[s + 1].reads : std::set<std::string>{};
+            std::set<std::string> next = more ? stages[s + 1].reads : std::set<std::string>{};
+            if (output.dp_dx || output.dp_dy) next.insert("dp_dx");  // written: those of the last stage's surface
             add(emit_resolve(emitter, stage.surface, stage.volume, more, next), static_cast<int>(s));
             bumped |= stage.surface || stage.volume;
         }

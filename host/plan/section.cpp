@@ -76,11 +76,12 @@ std::string literal(const Vec3& v) {
 }
 
 std::string identifier(const std::string& plane) {
+    const bool own = !plane.starts_with("channel:");  // ours stay apart by themselves; of a file's names all is escaped
     std::string name;
     for (const char c : plane) {
         if (std::isalnum(static_cast<unsigned char>(c)))
             name += c;
-        else if (c == '.' || c == '_')
+        else if (own && (c == '.' || c == '_'))
             name += '_';
         else
             name += fmt::format("_{:02x}", static_cast<unsigned char>(c));

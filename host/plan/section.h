@@ -52,7 +52,7 @@ struct Emitter {
 std::string literal(double value);
 /// `vec3` literal.
 std::string literal(const Vec3& v);
-/// Name of a plane as an identifier.
+/// Name of a plane as an identifier; different planes have different ones.
 std::string identifier(const std::string& plane);
 
 /// Emits the layers [first, last) that one section holds: a single layer or consecutive decals.

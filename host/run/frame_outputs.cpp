@@ -47,9 +47,12 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     const Output& output = scene.output;
     const Metadata metadata = provenance(scene, reader, output.passthrough);
     const auto add = [&](const fs::path& name, std::vector<std::string> planes, std::vector<std::string> channels,
-                         PngEncoding encoding) {
-        ImageOptions options{
-            .half = output.half, .metadata = metadata, .png = encoding, .exposure = scene.lighting.exposure};
+                         PngEncoding encoding, std::set<std::string> full = {}) {
+        ImageOptions options{.half = output.half,
+                             .full = std::move(full),
+                             .metadata = metadata,
+                             .png = encoding,
+                             .exposure = scene.lighting.exposure};
         const fs::path path = directory / name;
         files_.push_back(
             {path, std::move(planes), ImageWriter(path, pass.size, std::move(channels), std::move(options))});
@@ -61,15 +64,17 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
         planes.push_back("out:" + plane);
         channels.push_back(channel_name(plane));
     }
+    std::set<std::string> full;  // depths, positions and ids of the input do not survive as half
     if (output.passthrough) {
         for (const std::string& channel : reader.channels()) {
             if (std::ranges::find(channels, channel) != channels.end()) continue;  // ours replaces it
             passed_.push_back("channel:" + channel);
             planes.push_back(passed_.back());
             channels.push_back(channel);
+            full.insert(channel);
         }
     }
-    add(file_name("normal", "exr", frame), planes, channels, PngEncoding::linear);
+    add(file_name("normal", "exr", frame), planes, channels, PngEncoding::linear, std::move(full));
     if (output.png)
         add(file_name("normal", "png", frame), {"out:normal.x", "out:normal.y", "out:normal.z"}, {"R", "G", "B"},
             PngEncoding::normal);

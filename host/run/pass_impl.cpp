@@ -54,6 +54,14 @@ const cl::Buffer& plane(const DevicePlanes& planes, const std::string& name, std
     return found->second;
 }
 
+/// Streaming stores need whole vectors: memory that the caller lent must be aligned to one.
+void check_alignment(const cl::Buffer& buffer, const std::string& name, std::size_t alignment) {
+    if ((buffer.getInfo<CL_MEM_FLAGS>() & CL_MEM_USE_HOST_PTR) == 0) return;
+    if (reinterpret_cast<std::uintptr_t>(buffer.getInfo<CL_MEM_HOST_PTR>()) % alignment != 0)
+        throw Error(fmt::format("the buffer of the plane \"{}\" uses host memory that is not aligned to {} bytes", name,
+                                alignment));
+}
+
 }  // namespace
 
 Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options) {
@@ -126,8 +134,11 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         for (const std::string& name : plan.kernels[k].scratch)
             kernel.setArg(
                 i++, scratch[static_cast<std::size_t>(std::ranges::find(scratch_names, name) - scratch_names.begin())]);
-        for (const std::string& name : plan.kernels[k].outputs)
-            kernel.setArg(i++, plane(out, name, touched * bytes_per_output()));
+        for (const std::string& name : plan.kernels[k].outputs) {
+            const cl::Buffer& buffer = plane(out, name, touched * bytes_per_output());
+            check_alignment(buffer, name, static_cast<std::size_t>(options.lanes) * bytes_per_output());
+            kernel.setArg(i++, buffer);
+        }
         kernel.setArg(i++, static_cast<cl_uint>(before));
         kernel.setArg(i++, static_cast<cl_uint>(in_pixels));
         kernel.setArg(i++, static_cast<cl_uint>(rows.first));

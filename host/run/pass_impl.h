@@ -23,6 +23,7 @@ struct Pass::Impl {
     std::vector<std::string> scratch_names;
     double texture_seconds = 0, build_seconds = 0;
     bool saved = false;
+    bool warm = false;  ///< the kernels ran before
 
     Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
          const PlanOptions& plan_options);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Rows of a band: whole ZIP blocks of EXR files, and enough pixels to keep every core busy. Two bands are in flight.
+/// Rows of a band: whole ZIP blocks of EXR files, and enough pixels to keep every core busy. Three bands are in flight.
 constexpr std::uint32_t kBlockRows = 16;
 constexpr std::size_t kBandPixels = std::size_t{1} << 18;
 
@@ -48,6 +48,11 @@ std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, cons
 }
 
 Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera) {
+    if (reader.roles().screen_space_normals)
+        throw Error(
+            fmt::format("{}: its normals ({}) are in camera space; render world-space normals and name them in "
+                        "[gbuffer] roles",
+                        reader.path().string(), reader.roles().channel_of.at("normal.x")));
     Frame frame{.size = reader.size(), .camera = camera.camera, .planes = {}, .ray_depth = false, .cryptomatte = {}};
     for (const std::string& plane : reader.planes()) frame.planes.insert(plane);
     for (const std::string& channel : reader.channels()) frame.planes.insert("channel:" + channel);
@@ -63,7 +68,7 @@ struct Slot {
     Rows rows;
 };
 
-/// One frame in bands, two in flight: while one is evaluated the next is read and the last is written.
+/// One frame in bands, three in flight: while one is evaluated the next is read and the last is written.
 class FrameRun {
 public:
     FrameRun(Pass::Impl& pass, const GBufferReader& reader, FrameOutputs& outputs, PhaseClock& clock, int repeat)
@@ -77,7 +82,7 @@ public:
     double run(const std::function<void(double)>& progress) {
         const Size size = pass_.size;
         const std::uint32_t rows = band_rows(size), halo = pass_.plan.neighbours ? 1 : 0;
-        std::array<Slot, 2> slots;
+        std::array<Slot, 3> slots;
         for (Slot& slot : slots) {
             slot.inputs =
                 PlaneBuffers(pass_.device, names_, std::size_t{size.width} * (rows + 2 * halo), sizeof(float));
@@ -94,12 +99,12 @@ public:
         };
         start_reading(0, slots[0]);
         for (std::uint32_t first = 0, band = 0; first < size.height; first += rows, ++band) {
-            Slot& slot = slots[band % 2];
+            Slot& slot = slots[band % 3];
             reading.get();
             slot.inputs.unmap();
+            if (first + rows < size.height) start_reading(first + rows, slots[(band + 1) % 3]);
             evaluate(slot);
-            if (writing.valid()) writing.get();  // the other slot is free again
-            if (first + rows < size.height) start_reading(first + rows, slots[(band + 1) % 2]);
+            if (writing.valid()) writing.get();  // the slot before this one is free again
             writing = std::async(std::launch::async, [&, this] { write(slot); });
             if (progress) progress(std::min(1.0, static_cast<double>(first + rows) / size.height));
         }
@@ -118,6 +123,15 @@ private:
     }
 
     void evaluate(Slot& slot) {
+        if (!pass_.warm) {  // drivers finish compiling at the first call: one row, counted as building
+            clock_.measure(PhaseClock::build, [&] {
+                Rows row = slot.rows;
+                row.after += row.count - 1;
+                row.count = 1;
+                pass_.enqueue(slot.inputs.planes(), slot.outputs.planes(), row, {}).wait();
+            });
+            pass_.warm = true;
+        }
         clock_.measure(PhaseClock::kernels, [&] {
             std::vector<double> times;
             for (int i = 0; i < repeat_; ++i) {

@@ -21,7 +21,7 @@ struct RenderOptions {
 
 /// What `wrinkle run` reports of a run.
 struct RenderReport {
-    std::uint64_t pixels = 0, valid_inputs = 0;
+    std::uint64_t pixels = 0;
     int layers = 0, frames = 0;
     DeviceInfo device;
     bool cache_hit = false;

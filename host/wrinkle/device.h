@@ -47,9 +47,6 @@ struct Device {
 
     /// Works in the caller's context and on the caller's queue.
     static Device adopt(const cl::Context& context, const cl::CommandQueue& queue);
-
-    /// Memory of the device is memory of the host: nothing need be copied.
-    bool shares_memory() const;
 };
 
 /// Planes given to kernels hold this many floats for `pixels` pixels: whole lane groups, so that the last work-item

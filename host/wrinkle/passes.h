@@ -35,7 +35,8 @@ using HostPlanes = std::map<std::string, std::span<const float>>;
 using HostOutputs = std::map<std::string, std::span<float>>;
 using HostDoubles = std::map<std::string, std::span<double>>;
 /// Each holds at least padded(pixels) floats, inputs of a band the rows before it on top of that; what lies beyond
-/// `pixels` is overwritten.
+/// `pixels` is overwritten. Outputs that use host memory (CL_MEM_USE_HOST_PTR) must be aligned to one lane group, 128
+/// bytes at most.
 using DevicePlanes = std::map<std::string, cl::Buffer>;
 
 struct PassOptions {
