@@ -78,16 +78,6 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     return sections;
 }
 
-/// Concept files of every plan; the compiler drops what is not called.
-constexpr const char* kIncludes =
-    "#include \"lanes.clh\"\n#include \"vec.clh\"\n#include \"constants.clh\"\n#include \"layout.h\"\n"
-    "#include \"surface/gbuffer.clh\"\n#include \"surface/screen_derivative.clh\"\n"
-    "#include \"surface/texcoord_derivative.clh\"\n#include \"surface/tangent_frame.clh\"\n"
-    "#include \"surface/surface_gradient.clh\"\n#include \"sources/texture.clh\"\n#include \"sources/height_map.clh\"\n"
-    "#include \"sources/triplanar.clh\"\n#include \"sources/noise_table.clh\"\n#include \"sources/noise.clh\"\n"
-    "#include \"sources/fractal.clh\"\n#include \"sources/decal.clh\"\n#include \"compose/mask.clh\"\n"
-    "#include \"compose/resolve.clh\"\n#include \"shade/lighting.clh\"\n\n";
-
 /// Scratch planes of a value, in split plans.
 std::vector<std::string> scratch_planes(const Value& value) {
     std::vector<std::string> planes;
@@ -170,7 +160,7 @@ Plan make_plan(const Scene& scene, const Available& available, const PlanOptions
     // Few streams of stores: the write-combining buffers hold them all, so even half lines may go past the cache.
     constexpr std::size_t kFewOutputs = 3;
     plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
-                  (kIncludes + emitter.helpers);
+                  ("#include \"wrinkle.clh\"\n\n" + emitter.helpers);
 
     std::set<std::string> inputs;
     const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {

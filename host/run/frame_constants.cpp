@@ -29,7 +29,24 @@ Mat4 ndc_from_screen(Size size) {
     return m;
 }
 
-wr_frame fill_frame(const Camera& camera, Size size, const Vec3& eye, const Mat4& to_world) {
+wr_light fill_light(const Light& light, const Vec3& eye) {
+    wr_light out{};
+    out.kind = static_cast<double>(light.kind);
+    put(out.color, scaled(light.color, light.intensity));
+    put(out.position, subtract(light.position, eye));
+    put(out.to_light, scaled(normalize(light.direction), -1));
+    out.cos_outer = std::cos(light.outer_angle);
+    out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
+    return out;
+}
+
+Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_world[2][3]}; }
+
+}  // namespace
+
+wr_frame camera_constants(const Camera& camera, Size size) {
+    const Mat4 to_world = inverse(camera.view);
+    const Vec3 eye = eye_of(to_world);
     wr_frame frame{};
     frame.width = size.width;
     frame.height = size.height;
@@ -47,7 +64,6 @@ wr_frame fill_frame(const Camera& camera, Size size, const Vec3& eye, const Mat4
         put(frame.dx_cross_dy, cross(rays->dx, rays->dy));
         put(frame.dy_cross_d0, cross(rays->dy, rays->d0));
         put(frame.dy_cross_dx, cross(rays->dy, rays->dx));
-        return frame;
     }
     const Mat4 inverse_vps = multiply(inverse(multiply(camera.proj, camera.view)), ndc_from_screen(size));
     double(*const columns[])[3] = {&frame.c0, &frame.c1, &frame.c2, &frame.c3};
@@ -73,7 +89,7 @@ wr_frame fill_frame(const Camera& camera, Size size, const Vec3& eye, const Mat4
     return frame;
 }
 
-wr_decal fill_decal(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye) {
+wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye) {
     const Vec3 x = normalize(decal.axis_x);
     const Vec3 y = normalize(subtract(decal.axis_y, scaled(x, dot(x, decal.axis_y))));
     const Vec3 z = cross(x, y);
@@ -94,24 +110,10 @@ wr_decal fill_decal(const DecalLayer& decal, double scale, std::size_t texture, 
     return out;
 }
 
-wr_light fill_light(const Light& light, const Vec3& eye) {
-    wr_light out{};
-    out.kind = static_cast<double>(light.kind);
-    put(out.color, scaled(light.color, light.intensity));
-    put(out.position, subtract(light.position, eye));
-    put(out.to_light, scaled(normalize(light.direction), -1));
-    out.cos_outer = std::cos(light.outer_angle);
-    out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
-    return out;
-}
-
-}  // namespace
-
 FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size) {
-    const Mat4 to_world = inverse(camera.view);
-    const Vec3 eye{to_world[0][3], to_world[1][3], to_world[2][3]};
+    const Vec3 eye = eye_of(inverse(camera.view));
     FrameConstants out;
-    out.frame = fill_frame(camera, size, eye, to_world);
+    out.frame = camera_constants(camera, size);
     for (const Origin& origin : plan.origins) {
         for (std::size_t k = 0; k < 3; ++k) {
             double value = dot(origin.axes[k], eye) + origin.offset[k];
@@ -121,7 +123,7 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
         out.origins.push_back(origin.fourth);
     }
     for (std::size_t i = 0; i < plan.decals.size(); ++i)
-        out.decals.push_back(fill_decal(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));
+        out.decals.push_back(decal_constants(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));
     for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
     put(out.lighting.ambient, lighting.ambient);
     put(out.lighting.albedo, lighting.albedo);

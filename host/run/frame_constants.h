@@ -20,6 +20,12 @@ struct FrameConstants {
     std::vector<wr_light> lights;
 };
 
+/// The frame as kernels read it.
+wr_frame camera_constants(const Camera& camera, Size size);
+
+/// A decal as kernels read it; `scale` is signed, `texture` its number in the table.
+wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye);
+
 FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size);
 
 }  // namespace wrinkle

@@ -68,18 +68,21 @@ struct Mask {
 
 /// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
 struct NormalMapLayer {
+    static constexpr const char* kind = "normal_map";
     TextureUse texture{.content = Content::normal};
     UvMapping uv{};
 };
 
 /// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].
 struct HeightMapLayer {
+    static constexpr const char* kind = "height_map";
     TextureUse texture{};
     UvMapping uv{};
 };
 
 /// Three planar projections along the world axes, blended by the normal [Mik20 4.4].
 struct TriplanarLayer {
+    static constexpr const char* kind = "triplanar";
     TextureUse texture;
     double tile = 1;       ///< metres per repeat of the texture
     double sharpness = 3;  ///< exponent k of the weights, listing 14
@@ -87,6 +90,7 @@ struct TriplanarLayer {
 
 /// Perlin 2002 gradient noise, a fractal sum: sum of gain^i noise(frequency lacunarity^i p), world space.
 struct NoiseLayer {
+    static constexpr const char* kind = "noise";
     double frequency = 1;  ///< lattice cells per metre of the first octave
     int octaves = 1;       ///< at most; those above the footprint's Nyquist frequency are not evaluated
     double lacunarity = 2, gain = 0.5;
@@ -94,6 +98,7 @@ struct NoiseLayer {
 
 /// Oriented box projector [Mik20 4.5]. The image spans the box's x and y; it is projected along z.
 struct DecalLayer {
+    static constexpr const char* kind = "decal";
     TextureUse texture;
     Vec3 center{};
     Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};  ///< made orthonormal; axis_z = axis_x x axis_y points at the projector
@@ -104,11 +109,14 @@ struct DecalLayer {
 
 /// The same volume gradient everywhere: dh/dp, world.
 struct ConstantLayer {
+    static constexpr const char* kind = "constant";
     Vec3 gradient{};
 };
 
 /// Normalise here and start a new stage on the resolved normal [Mik20 4.6].
-struct ResolveLayer {};
+struct ResolveLayer {
+    static constexpr const char* kind = "resolve";
+};
 
 enum class Blend { add, subtract };
 
@@ -121,6 +129,10 @@ struct Layer {
     Blend blend = Blend::add;
     bool footprint = true;  ///< clamp mips and octaves to the pixel's footprint
     Mask mask;
+
+    const char* kind() const {
+        return std::visit([](const auto& l) { return l.kind; }, bump);
+    }
 };
 
 // --- Where the pixels come from and what is written ------------------------------------------------------------------

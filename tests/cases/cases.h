@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "functions/column_kernel.h"
 #include "tests/reference/golden.h"
 
 /// Inputs of a concept with what is expected of it; shared by tests and benchmarks.
@@ -17,7 +18,7 @@ using reference::Vec2;
 using V = Vec<real>;
 using V2 = Vec2<real>;
 
-/// Inputs as kernels read them: "n.x", "n.y", "n.z" make a vec3 n; "st.s", "st.t" a vec2 st; "k" a real.
+/// Inputs as kernels read them: "n.x", "n.y", "n.z" make a vec3 n; "st.x", "st.y" a vec2 st; "k" a real.
 using Columns = std::map<std::string, std::vector<float>>;
 
 /// Rows of inputs, the answers in long double (scalars and pairs in the first components), and what to call a row.
@@ -27,7 +28,9 @@ struct Cases {
     std::vector<std::string> labels{};
     std::vector<bool> hard{};
     std::map<std::string, std::vector<V>> want{};  ///< NaN or Inf: only a finite answer is asked for
-    std::vector<real> allowance{};                 ///< factor on the bound of a row; 1 unless a docblock says otherwise
+    std::vector<real> allowance{};        ///< factor on the bounds of a row; 1 unless a docblock says otherwise
+    std::vector<real> angle_allowance{};  ///< ... on bounds in degrees; empty: as allowance
+    ColumnData data{};                    ///< what a row reads beside its inputs, such as a camera
 
     std::size_t size() const { return labels.size(); }
 

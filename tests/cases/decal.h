@@ -7,25 +7,19 @@
 
 namespace wrinkle::cases {
 
-/// Cases with a decal for each row.
-struct DecalCases {
-    Cases cases;
-    std::vector<double> decals;  ///< one wr_decal a row
-
-    void add_decal(const wr_decal& decal) {
-        const double* numbers = decal.center;
-        decals.insert(decals.end(), numbers, numbers + sizeof(wr_decal) / sizeof(double));
-    }
-};
+inline void add_decal(Cases& c, const wr_decal& decal) {
+    const double* numbers = decal.center;
+    c.data.records_per_row = sizeof(wr_decal) / sizeof(double);
+    c.data.records.insert(c.data.records.end(), numbers, numbers + c.data.records_per_row);
+}
 
 inline void put(double (&to)[3], V v) {
     to[0] = static_cast<double>(v.x), to[1] = static_cast<double>(v.y), to[2] = static_cast<double>(v.z);
 }
 
 /// Listing 15: slopes d along the projector's axes X and Y, projected onto n.
-inline DecalCases decal_gradient_cases() {
-    DecalCases out{{.name = "listing15_decal"}, {}};
-    Cases& c = out.cases;
+inline Cases decal_gradient_cases() {
+    Cases c{.name = "listing15_decal"};
     const GoldenTable table = reference::golden("listing15_decal");
     for (std::size_t i = 0; i < table.size(); ++i) {
         const V x = table.vec(i, "X"), y = table.vec(i, "Y"), want = table.vec(i, "want_sg");
@@ -36,15 +30,14 @@ inline DecalCases decal_gradient_cases() {
         c.out("volume", g), c.out("sg", want);
         wr_decal decal{};
         put(decal.gradient_s, x), put(decal.gradient_t, y);
-        out.add_decal(decal);
+        add_decal(c, decal);
     }
-    return out;
+    return c;
 }
 
 /// Boxes of any orientation and size around points inside and out, with every kind of fade.
-inline DecalCases decal_box_cases() {
-    DecalCases out{{.name = "decal boxes"}, {}};
-    Cases& c = out.cases;
+inline Cases decal_box_cases() {
+    Cases c{.name = "decal boxes"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
         Random random(seed);
         const real size = random.magnitude(-3, 3);
@@ -64,13 +57,13 @@ inline DecalCases decal_box_cases() {
         d.falloff = falloff > 0 ? static_cast<double>(1 / falloff) : 0;
         d.fade_zero = static_cast<double>(a0);
         d.fade_slope = 1 / std::max(static_cast<double>(a1 - a0), 1e-6);
-        out.add_decal(d);
+        add_decal(c, d);
 
         const V at = reference::decal_coordinates(box, p - center), step = reference::decal_coordinates(box, dp);
         const real cosine = dot(normalize(n), box.z);
         const bool on_edge = std::abs(largest(at) - 1) < 1e-4L || (a1 == a0 && std::abs(cosine - a0) < 1e-4L);
         if (on_edge) {  // either answer is right
-            out.decals.resize(out.decals.size() - sizeof d / sizeof(double));
+            c.data.records.resize(c.data.records.size() - c.data.records_per_row);
             continue;
         }
         c.add("decal box, seed " + std::to_string(seed), seed % 2 == 0);
@@ -80,7 +73,7 @@ inline DecalCases decal_box_cases() {
         c.out("falloff", reference::decal_box_weight(at, falloff));
         c.out("angle_fade", reference::decal_angle_fade(cosine, a0, a1));
     }
-    return out;
+    return c;
 }
 
 }  // namespace wrinkle::cases

@@ -6,47 +6,40 @@
 
 namespace wrinkle::cases {
 
-constexpr double height_slope_absolute = 2e-5;  // heights per texel
-
 using reference::Address;
 using Pyramid = reference::Pyramid<real>;
 
-/// Textures as kernels find them: rows with a border texel on each side, a border row below and above, by level.
-struct TextureCases {
-    Cases cases;
-    std::vector<double> numbers;  ///< each row's first texture: heights, then slopes
-    std::vector<float> texels;
-    std::vector<std::uint32_t> table;
-
-    /// `texel(level, channel, x, y)` may be asked one texel beyond the level.
-    template <class Texel>
-    void add_texture(const Pyramid& pyramid, int channels, const Texel& texel) {
-        const std::size_t words = table.size();
-        table.resize(words + WR_TEXTURE_WORDS);
-        table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(pyramid.levels[0].width);
-        table[words + WR_TEXTURE_HEIGHT] = static_cast<std::uint32_t>(pyramid.levels[0].height);
-        table[words + WR_TEXTURE_LEVELS] = static_cast<std::uint32_t>(pyramid.levels.size());
-        if (texels.size() < 4) texels.resize(4);
-        for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
-            texels.resize(texels.size() - 4);  // the last pair of a row may be read as four floats
-            table[words + WR_TEXTURE_OFFSETS + l] = static_cast<std::uint32_t>(texels.size());
-            for (int y = -1; y <= pyramid.levels[l].height; ++y)
-                for (int x = -1; x <= pyramid.levels[l].width; ++x)
-                    for (int c = 0; c < channels; ++c)
-                        texels.push_back(static_cast<float>(texel(pyramid.levels[l], c, x, y)));
-            texels.resize(texels.size() + 4);
-        }
+/// Adds a texture as kernels find it: rows with a border texel on each side, a border row below and above, by level.
+/// `texel(level, channel, x, y)` may be asked one texel beyond the level.
+template <class Texel>
+void add_texture(ColumnData& data, const Pyramid& pyramid, int channels, const Texel& texel) {
+    std::vector<std::uint32_t>& table = data.textures;
+    std::vector<float>& texels = data.texels;
+    const std::size_t words = table.size();
+    table.resize(words + WR_TEXTURE_WORDS);
+    table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(pyramid.levels[0].width);
+    table[words + WR_TEXTURE_HEIGHT] = static_cast<std::uint32_t>(pyramid.levels[0].height);
+    table[words + WR_TEXTURE_LEVELS] = static_cast<std::uint32_t>(pyramid.levels.size());
+    if (texels.size() < 4) texels.resize(4);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        texels.resize(texels.size() - 4);  // the last pair of a row may be read as four floats
+        table[words + WR_TEXTURE_OFFSETS + l] = static_cast<std::uint32_t>(texels.size());
+        for (int y = -1; y <= pyramid.levels[l].height; ++y)
+            for (int x = -1; x <= pyramid.levels[l].width; ++x)
+                for (int c = 0; c < channels; ++c)
+                    texels.push_back(static_cast<float>(texel(pyramid.levels[l], c, x, y)));
+        texels.resize(texels.size() + 4);
     }
+}
 
-    /// The heights, and their Sobel slopes per unit of texture coordinate.
-    void add_heights(const Pyramid& height, Address wrap) {
-        add_texture(height, 1, [&](const auto& level, int, int x, int y) { return level.at(0, x, y, wrap); });
-        add_texture(height, 2, [&](const auto& level, int c, int x, int y) {
-            const V2 d = reference::sobel(level, x, y, wrap);
-            return c == 0 ? d.x * level.width : d.y * level.height;
-        });
-    }
-};
+/// Adds the heights, then their Sobel slopes per unit of texture coordinate.
+inline void add_heights(ColumnData& data, const Pyramid& height, Address wrap) {
+    add_texture(data, height, 1, [&](const auto& level, int, int x, int y) { return level.at(0, x, y, wrap); });
+    add_texture(data, height, 2, [&](const auto& level, int c, int x, int y) {
+        const V2 d = reference::sobel(level, x, y, wrap);
+        return c == 0 ? d.x * level.width : d.y * level.height;
+    });
+}
 
 /// Slopes are compared per texel of the finest level.
 inline V2 per_texel(V2 slope, const Pyramid& height) {
@@ -66,15 +59,15 @@ inline std::map<std::string, Pyramid> golden_textures() {
 }
 
 /// Listing 16, repeated: the lod; slopes at that lod and at `lod_in`, which are rows of their own.
-inline TextureCases height_slope_cases() {
-    TextureCases out{{.name = "listing16_deriv_from_heightmap"}, {}, {}, {}};
-    Cases& c = out.cases;
+inline Cases height_slope_cases(bool smooth) {
+    Cases c{.name = "listing16_deriv_from_heightmap"};
+    c.data.constants_per_row = 1;  // the texture
     const GoldenTable table = reference::golden("listing16_deriv_from_heightmap");
     const auto textures = golden_textures();
     std::map<std::string, double> number;
     for (const auto& [name, height] : textures) {
-        number[name] = static_cast<double>(2 * number.size());
-        out.add_heights(height, Address::repeat);
+        number[name] = static_cast<double>(2 * number.size() + (smooth ? 1 : 0));
+        add_heights(c.data, height, Address::repeat);
     }
     for (std::size_t i = 0; i < table.size(); ++i)
         for (const bool given : {false, true}) {
@@ -85,26 +78,25 @@ inline TextureCases height_slope_cases() {
             const real lod = given ? std::clamp<real>(table.number(i, "lod_in"), 0, last) : table.number(i, "want_lod");
             const V2 st = table.vec2(i, "st");
             add_golden_row(c, table, i, {});
-            out.numbers.push_back(number[found->first]);
-            c.in("st", st), c.in("dSTdx", table.vec2(i, "dSTdx")), c.in("dSTdy", table.vec2(i, "dSTdy"));
+            c.data.constants.push_back(number[found->first]);
+            c.in("st", st), c.in("dst_dx", table.vec2(i, "dSTdx")), c.in("dst_dy", table.vec2(i, "dSTdy"));
             c.in("lod", lod);
             c.out("lod", real{table.number(i, "want_lod")});
-            c.out("plain", given ? reference::plain_slope_per_texel(height, st, lod, Address::repeat)
-                                 : table.vec2(i, "want_d0"));
-            c.out("smooth", per_texel(reference::smooth_slope(height, st, lod, Address::repeat), height));
+            c.out("slope", smooth  ? per_texel(reference::smooth_slope(height, st, lod, Address::repeat), height)
+                           : given ? reference::plain_slope_per_texel(height, st, lod, Address::repeat)
+                                   : table.vec2(i, "want_d0"));
         }
-    return out;
+    return c;
 }
 
 /// The same clamped, on a picture of odd size, also at its edges and corners.
-inline TextureCases clamped_slope_cases() {
-    TextureCases out{{.name = "clamped height slopes"}, {}, {}, {}};
-    Cases& c = out.cases;
+inline Cases clamped_slope_cases() {
+    Cases c{.name = "clamped height slopes"};
     Random texels(7);
     reference::Level<real> top{13, 7, {}};
     for (int i = 0; i < 13 * 7; ++i) top.texels.push_back(texels.uniform(0, 1));
     const Pyramid height = reference::build_pyramid(top, 1);
-    out.add_heights(height, Address::clamp);
+    add_heights(c.data, height, Address::clamp);
     for (unsigned seed = 1; seed <= 200; ++seed) {
         Random random(seed);
         V2 st{random.uniform(0, 1), random.uniform(0, 1)};
@@ -112,12 +104,11 @@ inline TextureCases clamped_slope_cases() {
         if (seed % 7 == 0) st.y = real(random.below(2));
         const real lod = seed % 3 == 0 ? real(random.below(4)) : random.uniform(0, 3);
         c.add("clamped slope, seed " + std::to_string(seed), seed % 5 == 0 || seed % 7 == 0);
-        out.numbers.push_back(0);
         c.in("st", st), c.in("lod", lod);
         c.out("plain", reference::plain_slope_per_texel(height, st, lod, Address::clamp));
         c.out("smooth", per_texel(reference::smooth_slope(height, st, lod, Address::clamp), height));
     }
-    return out;
+    return c;
 }
 
 }  // namespace wrinkle::cases

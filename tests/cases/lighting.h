@@ -8,12 +8,6 @@ namespace wrinkle::cases {
 
 constexpr double lighting_relative = 1e-6, smooth_lighting_relative = 1e-4;
 
-/// A surface under a sun, a point and a spot light; one wr_lighting and its lights.
-struct LightingCases {
-    Cases cases;
-    std::vector<double> constants;
-};
-
 inline Lighting test_lighting() {
     Lighting lighting;
     lighting.ambient = {0.125, 0.25, 0.5};
@@ -24,18 +18,18 @@ inline Lighting test_lighting() {
     return lighting;
 }
 
-/// Regular: rough surfaces. Hard: highlights of smooth ones, grazing views, surfaces at a light or behind all.
-inline LightingCases lighting_cases() {
-    LightingCases out{{.name = "lighting"}, {}};
-    Cases& c = out.cases;
+/// A surface under a sun, a point and a spot light; constants: one wr_lighting and its lights. Regular: rough surfaces.
+/// Hard: highlights of smooth ones, grazing views, surfaces at a light or behind all.
+inline Cases lighting_cases() {
+    Cases c{.name = "lighting"};
     const Lighting lighting = test_lighting();
     const Camera at_origin{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
                            {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, -0.5}, {0, 0, -1, 0}}}};
     const FrameConstants constants = frame_constants({}, lighting, at_origin, {8, 8});
     const double *first = constants.lighting.ambient, *light = &constants.lights[0].kind;
-    out.constants.assign(first, first + sizeof(wr_lighting) / sizeof(double));
-    out.constants.insert(out.constants.end(), light,
-                         light + constants.lights.size() * sizeof(wr_light) / sizeof(double));
+    c.data.constants.assign(first, first + sizeof(wr_lighting) / sizeof(double));
+    c.data.constants.insert(c.data.constants.end(), light,
+                            light + constants.lights.size() * sizeof(wr_light) / sizeof(double));
     for (unsigned seed = 1; seed <= 400; ++seed) {
         Random random(seed);
         const bool hard = seed % 2 == 0;
@@ -51,7 +45,7 @@ inline LightingCases lighting_cases() {
         c.in("p", p), c.in("n", n), c.in("v", v), c.in("roughness", surface.roughness);
         c.out("lit", reference::lit(lighting, normalize(n), normalize(v), p, surface));
     }
-    return out;
+    return c;
 }
 
 }  // namespace wrinkle::cases

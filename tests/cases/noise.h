@@ -5,8 +5,6 @@
 
 namespace wrinkle::cases {
 
-constexpr double noise_value_absolute = 1e-6, noise_gradient_absolute = 3e-6;
-
 /// Perlin noise: golden rows, cells all over the lattice up to 2^22, their faces, edges and corners.
 inline Cases noise_cases() {
     Cases c{.name = "perlin2002_demo_dnoise"};
@@ -38,17 +36,11 @@ inline Cases noise_cases() {
 
 constexpr int fractal_octaves = 8;
 
-/// Cases with constants of their own: the gain, then 4 numbers an octave, the eye on its lattice and the frequency.
-struct FractalCases {
-    Cases cases;
-    std::vector<double> constants;
-};
-constexpr std::size_t fractal_constants = 1 + 4 * fractal_octaves;
-
-/// Fractal sums seen from an eye far from the origin, with and without a footprint.
-inline FractalCases fractal_cases() {
-    FractalCases out{{.name = "fractal sums"}, {}};
-    Cases& c = out.cases;
+/// Fractal sums seen from an eye far from the origin, with and without a footprint. Constants of a row: the gain, then
+/// 4 numbers an octave, the eye on its lattice and the frequency.
+inline Cases fractal_cases() {
+    Cases c{.name = "fractal sums"};
+    c.data.constants_per_row = 1 + 4 * fractal_octaves;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         Random random(seed);
         const real lacunarity = seed % 4 == 0 ? 0.5L : seed % 4 == 1 ? random.uniform(1.5L, 2.5L) : 2;
@@ -58,23 +50,23 @@ inline FractalCases fractal_cases() {
         c.add("fractal, seed " + std::to_string(seed), seed % 4 != 2);
         c.in("p", p), c.in("footprint", footprint);
         const V want = reference::fractal_sum(f, eye + p, footprint).gradient;
-        // Of each octave that is added: noise_gradient_absolute times frequency and gain, and half an ulp of the
+        // Of each octave that is added: the noise's bound times frequency and gain, and half an ulp of the
         // lattice coordinate (< 512) times the largest second derivative.
         real size = 0;
-        out.constants.push_back(static_cast<double>(f.gain));
+        c.data.constants.push_back(static_cast<double>(f.gain));
         real frequency = f.frequency, amplitude = 1;
         for (int i = 0; i < fractal_octaves; ++i, frequency *= lacunarity, amplitude *= f.gain) {
             for (const real e : {eye.x, eye.y, eye.z}) {
                 const real at = e * frequency;
-                out.constants.push_back(static_cast<double>(at - 256 * std::floor(at / 256)));
+                c.data.constants.push_back(static_cast<double>(at - 256 * std::floor(at / 256)));
             }
-            out.constants.push_back(static_cast<double>(frequency));
+            c.data.constants.push_back(static_cast<double>(frequency));
             size += amplitude * frequency * reference::octave_weight(footprint * frequency);
         }
         c.allowance.back() = std::max(size, real{1e-30L});
         c.out("gradient", want);
     }
-    return out;
+    return c;
 }
 
 }  // namespace wrinkle::cases

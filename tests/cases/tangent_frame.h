@@ -4,8 +4,6 @@
 
 namespace wrinkle::cases {
 
-constexpr double tangent_frame_degrees = 1e-5;
-
 /// T and B: golden rows, random footprints, exactly degenerate ones (a frame of zeros).
 inline Cases tangent_frame_cases() {
     Cases c{.name = "listing04_genbasis_tb"};

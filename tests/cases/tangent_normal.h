@@ -5,8 +5,6 @@
 
 namespace wrinkle::cases {
 
-constexpr double tangent_normal_relative = 2e-7;
-
 /// Slopes of tangent-space normals m: golden rows, and normals of every length and steepness.
 inline Cases tangent_normal_cases() {
     Cases c{.name = "listing02_tspace_to_deriv"};

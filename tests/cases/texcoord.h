@@ -5,8 +5,6 @@
 
 namespace wrinkle::cases {
 
-constexpr double texcoord_step_relative = 1e-6;
-
 /// Least squares of dp = a dp_du + b dp_dv for tangents of any scale, skew and handedness, dp in and out of their
 /// plane.
 inline Cases texcoord_step_cases() {

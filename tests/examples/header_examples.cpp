@@ -7,6 +7,7 @@
 #include "wrinkle/camera.h"
 #include "wrinkle/device.h"
 #include "wrinkle/error.h"
+#include "wrinkle/functions.h"
 #include "wrinkle/gbuffer.h"
 #include "wrinkle/passes.h"
 #include "wrinkle/scene.h"
@@ -40,6 +41,18 @@ TEST(HeaderExample, Device) {
     const auto device = wrinkle::Device::open();                             // the first CPU
     const auto same = wrinkle::Device::adopt(device.context, device.queue);  // or any context and queue of yours
     EXPECT_EQ(same.info.name, device.info.name);
+}
+
+TEST(HeaderExample, Functions) {
+    const wrinkle::Function& resolve = wrinkle::function("resolve");
+    std::cout << resolve.summary << " (" << resolve.source << ")\n";
+    const std::vector<float> zero(100), one(100, 1), slope(100, 0.75f);
+    std::vector<float> x(100), z(100);
+    wrinkle::Columns in{{"n.x", zero}, {"n.y", zero}, {"n.z", one}, {"g.y", zero}, {"g.z", zero}};
+    in["g.x"] = slope;
+    wrinkle::evaluate_function(wrinkle::Device::open(), resolve, in, {{"normal.x", x}, {"normal.z", z}});
+    EXPECT_NEAR(x[99], -0.6, 1e-6);
+    EXPECT_NEAR(z[0], 0.8, 1e-6);
 }
 
 TEST(HeaderExample, SceneAndPasses) {

@@ -6,41 +6,29 @@
 namespace wrinkle::test {
 namespace {
 
-const std::vector<std::string> includes{"surface/tangent_frame.clh", "surface/surface_gradient.clh",
-                                        "sources/decal.clh"};
 const std::string record = "global const wr_decal *decal = (global const wr_decal *)records;\n";
 
-KernelData data_of(cases::DecalCases& c) {
-    KernelData data;
-    data.records = std::move(c.decals);
-    data.records_per_row = sizeof(wr_decal) / sizeof(double);
-    return data;
-}
-
 TEST(Decal, Gradient) {
-    cases::DecalCases c = cases::decal_gradient_cases();
-    check(c.cases, includes,
+    check(cases::decal_gradient_cases(),
           record +
               "vec3 g = wr_decal_gradient(decal, d, (real)(1));\n"
               "vec3 s = wr_surface_gradient_from_volume(unit(n), g);",
-          {{"sg", xyz("s"), Metric::relative, 4e-7, 4e-7, 1e-9}}, data_of(c));
+          {{"sg", xyz("s"), ErrorMeasure::relative, 4e-7, 4e-7, 1e-9}});
 }
 
 /// The point and the centre cancel to 1e-6 of the half size: eye-relative positions lie up to 10 half sizes away.
 TEST(Decal, BoxAndFades) {
-    cases::DecalCases c = cases::decal_box_cases();
-    check(c.cases, includes,
+    check(cases::decal_box_cases(),
           record +
               "wr_decal_point in_box = wr_decal_locate(decal, p);\n"
               "vec2 step = wr_decal_step(decal, dp);\n"
               "real fall = wr_decal_falloff(decal, in_box), fade = wr_decal_angle_fade(decal, unit(n));",
-          {{"q", xyz("in_box.q"), Metric::absolute, 1e-5, 1e-5},
-           {"st", xy("in_box.st"), Metric::absolute, 1e-5, 1e-5},
-           {"step", xy("step"), Metric::relative, 1e-6, 1e-6},
-           {"inside", {"truth(in_box.inside)"}, Metric::absolute, 0, 0, 0},
-           {"falloff", {"fall"}, Metric::absolute, 1e-4, 1e-4},
-           {"angle_fade", {"fade"}, Metric::absolute, 4e-6, 4e-6}},
-          data_of(c));
+          {{"q", xyz("in_box.q"), ErrorMeasure::absolute, 1e-5, 1e-5},
+           {"st", xy("in_box.st"), ErrorMeasure::absolute, 1e-5, 1e-5},
+           {"step", xy("step"), ErrorMeasure::relative, 1e-6, 1e-6},
+           {"inside", {"truth(in_box.inside)"}, ErrorMeasure::absolute, 0, 0, 0},
+           {"falloff", {"fall"}, ErrorMeasure::absolute, 1e-4, 1e-4},
+           {"angle_fade", {"fade"}, ErrorMeasure::absolute, 4e-6, 4e-6}});
 }
 
 }  // namespace

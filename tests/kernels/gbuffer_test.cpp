@@ -9,7 +9,6 @@ namespace wrinkle::test {
 namespace {
 
 constexpr int all_lanes[] = {1, 4, 8, 16};
-const std::vector<std::string> includes{"surface/gbuffer.clh"};
 constexpr float inf = INFINITY, nan = NAN, tiny = 1e-45f, huge = 3.4e38f;
 
 TEST(GBuffer, ValidityIsDecidedFromBits) {
@@ -23,15 +22,15 @@ TEST(GBuffer, ValidityIsDecidedFromBits) {
             depth.push_back(std::isfinite(a) && !gone(a) && a > 0 && a < 1e9f);
             normal.push_back(std::isfinite(a) && std::isfinite(b) && !(gone(a) && gone(b)));
         }
+    const ColumnData planes = float_planes({columns["a"], columns["b"]});
     for (const bool fp64 : {false, true})
         for (const int lanes : all_lanes) {
-            const Results r =
-                run_kernel({includes,
-                            "floats fa = wr_load_floats(in_a, at), fb = wr_load_floats(in_b, at), zero = 0;",
-                            {"truth(wr_valid_depth(fa))", "truth(wr_valid_normal(fa, fb, zero))",
-                             "truth(wr_valid_normal(zero, fa, fb))", "truth(wr_valid_position(fa, fb, zero))",
-                             "wr_real(wr_valid_or(fa, wr_finite(fa), 7))"}},
-                           columns, {lanes, fp64});
+            const Results r = run_kernel(
+                {"floats fa = wr_load_floats(texels, at), fb = wr_load_floats(texels + stride, at), zero = 0;",
+                 {"truth(wr_valid_depth(fa))", "truth(wr_valid_normal(fa, fb, zero))",
+                  "truth(wr_valid_normal(zero, fa, fb))", "truth(wr_valid_position(fa, fb, zero))",
+                  "wr_real(wr_valid_or(fa, wr_finite(fa), 7))"}},
+                columns, {lanes, fp64}, planes);
             for (std::size_t i = 0; i < depth.size(); ++i) {
                 const float a = columns["a"][i], b = columns["b"][i];
                 const std::string row = fmt::format("{}, {} on {} lanes", a, b, lanes);
@@ -49,13 +48,12 @@ TEST(GBuffer, PixelsOfAWorkItem) {
     for (const int width : {1, 2, 3, 7, 16, 31, 97}) {
         const std::size_t pixels = static_cast<std::size_t>(width) * 11;
         const Columns columns{{"nothing", std::vector<float>(pixels)}};
-        KernelData data;
+        ColumnData data;
         data.constants = {static_cast<double>(width)};
         for (const bool fp64 : {false, true})
             for (const int lanes : all_lanes) {
                 const Results r = run_kernel(
-                    {includes,
-                     "wr_pixels px = wr_pixels_of(get_global_id(0), 50, 20, (uint)constants[0]);",
+                    {"wr_pixels px = wr_pixels_of(get_global_id(0), 50, 20, (uint)constants[0]);",
                      {"px.x", "px.y", "(real)((WR_SCALAR)(px.in - at))", "(real)((WR_SCALAR)(px.out - at))"}},
                     columns, {lanes, fp64}, data);
                 for (std::size_t i = 0; i < pixels; ++i) {
@@ -89,10 +87,11 @@ cases::Cases face_viewer_cases() {
 
 TEST(GBuffer, NormalsFaceTheViewer) {
     const cases::Cases c = face_viewer_cases();
-    check(c, includes,
+    check(c,
           "mask away;\n"
           "vec3 r = wr_face_viewer(unit(n), p, &away);",
-          {{"normal", xyz("r"), Metric::angle, 2e-5, 2e-5}, {"away", {"truth(away)"}, Metric::absolute, 0, 0, 0}});
+          {{"normal", xyz("r"), ErrorMeasure::degrees, 2e-5, 2e-5},
+           {"away", {"truth(away)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
 /// An eye at 1e6 metres: the difference is good to an ulp of itself, not of the eye.
@@ -115,28 +114,26 @@ TEST(GBuffer, PositionsRelativeToTheEye) {
         c.out("relative", world - eye), c.out("ray", d0 + dx * x + dy * y);
         c.out("parallel", d0 + dx * x + dy * y + forward * depth);
     }
-    KernelData data;
     const double* first = &frame.width;
-    data.constants.assign(first, first + sizeof frame / sizeof(double));
-    check(c, includes, "constant const wr_frame *frame = (constant const wr_frame *)constants;",
+    c.data.constants.assign(first, first + sizeof frame / sizeof(double));
+    check(c, "constant const wr_frame *frame = (constant const wr_frame *)constants;",
           {{"relative",
             {"wr_eye_relative(frame, P).x", "wr_eye_relative(frame, P).y", "wr_eye_relative(frame, P).z"},
-            Metric::relative,
+            ErrorMeasure::relative,
             1.2e-7,
             0,
             1e-9},
            {"ray",
             {"wr_ray(frame, x, y).x", "wr_ray(frame, x, y).y", "wr_ray(frame, x, y).z"},
-            Metric::relative,
+            ErrorMeasure::relative,
             3e-7,
             0},
            {"parallel",
             {"wr_parallel_position(frame, x, y, depth).x", "wr_parallel_position(frame, x, y, depth).y",
              "wr_parallel_position(frame, x, y, depth).z"},
-            Metric::relative,
+            ErrorMeasure::relative,
             5e-7,
-            0}},
-          data);
+            0}});
 }
 
 }  // namespace

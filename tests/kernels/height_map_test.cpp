@@ -1,4 +1,4 @@
-// sources/height_map.clh
+// sources/height_map.clh, clamped; repeated: functions_test.cpp
 #include "tests/cases/height_map.h"
 
 #include "tests/kernels/check.h"
@@ -6,42 +6,32 @@
 namespace wrinkle::test {
 namespace {
 
-const std::vector<std::string> includes{"sources/texture.clh", "sources/height_map.clh"};
-const std::string textures_of_the_row =
-    "wr_texture heights = wr_texture_at(texels, textures, (uint)constants[0]);\n"
-    "wr_texture slopes = wr_texture_at(texels, textures, (uint)constants[0] + 1);\n"
-    "vec2 texel = wr_v2(1 / wr_texture_width(heights), 1 / wr_texture_height(heights));\n";
+constexpr double bound = 2e-5;  // heights per texel
 
-KernelData data_of(const cases::TextureCases& c) {
-    KernelData data;
-    data.constants = c.numbers;
-    data.constants_per_row = 1;
-    data.texels = c.texels;
-    data.textures = c.table;
-    return data;
+std::string slope_text(int texture, const std::string& form) {
+    return fmt::format(
+        "wr_texture t = wr_texture_at(texels, textures, {});\n"
+        "vec2 d = {}(t, st, lod);\n"
+        "d = wr_v2(d.x / wr_texture_width(t), d.y / wr_texture_height(t));",
+        texture, form);
 }
 
-Answer slope_answer(const std::string& name, const std::string& slope, double fp64) {
-    const double bound = cases::height_slope_absolute;
-    return {name, {slope + ".x * texel.x", slope + ".y * texel.y"}, Metric::absolute, bound, bound, fp64};
+// Texels and lods are floats, so double runs keep only their digits.
+TEST(HeightMap, PlainClamped) {
+    check(cases::clamped_slope_cases(), slope_text(0, "wr_height_slope_plain_clamp"),
+          {{"plain", xy("d"), ErrorMeasure::absolute, bound, bound, 1e-6}});
 }
 
-void check_slopes(const cases::TextureCases& c, const std::string& form, const std::string& textures) {
-    // Texels and lods are floats, so double runs keep only their digits.
-    check(c.cases, includes, textures_of_the_row + "vec2 d = " + form + "(" + textures + ", st, lod);",
-          {slope_answer(form.starts_with("wr_slope") ? "smooth" : "plain", "d", 1e-6)}, data_of(c), INFINITY);
+TEST(HeightMap, SmoothClamped) {
+    check(cases::clamped_slope_cases(), slope_text(1, "wr_slope_clamp"),
+          {{"smooth", xy("d"), ErrorMeasure::absolute, bound, bound, 1e-6}});
 }
 
 TEST(HeightMap, Lod) {
-    const cases::TextureCases c = cases::height_slope_cases();
-    check(c.cases, includes, textures_of_the_row + "real l = wr_texture_lod(heights, dSTdx, dSTdy);",
-          {{"lod", {"l"}, Metric::absolute, 1e-6, 1e-6}}, data_of(c), INFINITY);
+    check(cases::height_slope_cases(false),
+          "real l = wr_texture_lod(wr_texture_at(texels, textures, (uint)constants[0]), dst_dx, dst_dy);",
+          {{"lod", {"l"}, ErrorMeasure::absolute, 1e-6, 1e-6}});
 }
-
-TEST(HeightMap, PlainRepeated) { check_slopes(cases::height_slope_cases(), "wr_height_slope_plain", "heights"); }
-TEST(HeightMap, PlainClamped) { check_slopes(cases::clamped_slope_cases(), "wr_height_slope_plain_clamp", "heights"); }
-TEST(HeightMap, SmoothRepeated) { check_slopes(cases::height_slope_cases(), "wr_slope", "slopes"); }
-TEST(HeightMap, SmoothClamped) { check_slopes(cases::clamped_slope_cases(), "wr_slope_clamp", "slopes"); }
 
 }  // namespace
 }  // namespace wrinkle::test

@@ -19,7 +19,7 @@ TEST(Lanes, LoadAndStoreKeepTheOrder) {
     const Columns columns{{"v", count(100)}};
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({{}, "", {"v", "wr_lane_number()"}}, columns, {lanes, fp64});
+            const Results r = run_kernel({"", {"v", "wr_lane_number()"}}, columns, {lanes, fp64});
             for (std::size_t i = 0; i < 100; ++i) {
                 EXPECT_EQ(r[0][i], static_cast<double>(i));
                 EXPECT_EQ(r[1][i], static_cast<double>(i % static_cast<std::size_t>(lanes)));
@@ -35,11 +35,10 @@ TEST(Lanes, LoadNearStaysInside) {
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes)
             for (const int step : {-40, -17, -1, 0, 1, 5, 40}) {
-                KernelData data;
+                ColumnData data = float_planes({v});
                 data.constants = {static_cast<double>(step), static_cast<double>(pixels)};
                 const Results r =
-                    run_kernel({{},
-                                "floats r = wr_load_near(in_v, (long)at + (long)constants[0], (long)constants[1]);",
+                    run_kernel({"floats r = wr_load_near(texels, (long)at + (long)constants[0], (long)constants[1]);",
                                 {"wr_real(r)"}},
                                {{"v", v}}, {lanes, fp64}, data);
                 for (std::size_t i = 0; i < pixels; ++i) {
@@ -54,7 +53,7 @@ TEST(Lanes, FloorOfAnyNumber) {
     const std::vector<float> v{0, -0.0f, 0.5f, -0.5f, 1, -1, -1e-45f, 1e-45f, 8388607.5f, -8388607.5f, 3e38f, -3e38f};
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({{}, "", {"wr_floor(v)"}}, {{"v", v}}, {lanes, fp64});
+            const Results r = run_kernel({"", {"wr_floor(v)"}}, {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) EXPECT_EQ(r[0][i], std::floor(double{v[i]})) << v[i];
         }
 }
@@ -64,7 +63,7 @@ TEST(Lanes, Log2) {
     for (int i = 0; i < 500; ++i) v.push_back(static_cast<float>(std::exp2(i * 0.2)));
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({{}, "", {"wr_log2(v)"}}, {{"v", v}}, {lanes, fp64});
+            const Results r = run_kernel({"", {"wr_log2(v)"}}, {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
                 const double want = std::log2(double{v[i]});  // an ulp of the result is all that a large one has
                 EXPECT_NEAR(r[0][i], want, fp64 ? 1e-13 : 2e-7 + want * 6e-8) << v[i];
@@ -77,7 +76,7 @@ TEST(Lanes, AnyIsTrueWhereOneLaneIs) {
     v[5] = v[48] = 1;
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({{}, "int found = wr_any(v > 0) ? 1 : 0;", {"(real)((WR_SCALAR)(found))"}},
+            const Results r = run_kernel({"int found = wr_any(v > 0) ? 1 : 0;", {"(real)((WR_SCALAR)(found))"}},
                                          {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
                 const std::size_t n = static_cast<std::size_t>(lanes), group = i / n;
@@ -91,11 +90,10 @@ TEST(Lanes, MasksSelectCombineAndNegate) {
     const Columns columns{{"a", {0, 1, 2, 3}}, {"b", {3, 2, 1, 0}}};
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({{},
-                                          "mask less = a < b, one = a == 1;",
+            const Results r = run_kernel({"mask less = a < b, one = a == 1;",
                                           {"truth(less)", "truth(less & one)", "truth(less | (a == 3))", "truth(!less)",
-                                           "truth(wr_mask(wr_bits(wr_load_floats(in_a, at)) == 0))"}},
-                                         columns, {lanes, fp64});
+                                           "truth(wr_mask(wr_bits(wr_load_floats(texels, at)) == 0))"}},
+                                         columns, {lanes, fp64}, float_planes({columns.at("a")}));
             EXPECT_EQ(r[0], (std::vector<double>{1, 1, 0, 0}));
             EXPECT_EQ(r[1], (std::vector<double>{0, 1, 0, 0}));
             EXPECT_EQ(r[2], (std::vector<double>{1, 1, 0, 1}));

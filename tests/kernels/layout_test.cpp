@@ -37,13 +37,13 @@ void add(std::vector<Member>& members, const std::string& name, double value) {
 /// Reads every member on the device, as float and as double, from constant and from global memory.
 void check_layout(const std::string& type, const std::vector<Member>& members, std::size_t size) {
     ASSERT_EQ(members.size() * sizeof(double), size) << type << ": a member is not named in this test";
-    KernelData data;
+    ColumnData data;
     data.constants.resize(size / sizeof(double));
     std::iota(data.constants.begin(), data.constants.end(), 1);
     data.records = data.constants;
     for (const char* memory : {"constant", "global"})
         for (const bool fp64 : {false, true}) {
-            KernelFunction f;
+            ColumnKernel f;
             f.body = fmt::format("{0} const {1} *s = ({0} const {1} *){2};", memory, type,
                                  std::string(memory) == "constant" ? "constants" : "records");
             f.outputs = {fmt::format("(real)(sizeof({}) / sizeof(WR_SCALAR))", type)};

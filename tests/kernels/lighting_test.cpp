@@ -13,16 +13,12 @@ const std::string light_it =
     "vec3 lit = wr_light_surface(p, unit(n), unit(v), albedo, roughness, lighting, lights);";
 
 TEST(Lighting, RadianceOfThreeLights) {
-    cases::LightingCases c = cases::lighting_cases();
-    KernelData data;
-    data.constants = std::move(c.constants);
-    check(c.cases, {"shade/lighting.clh"}, light_it,
-          {{"lit", xyz("lit"), Metric::relative, cases::lighting_relative, cases::smooth_lighting_relative, 1e-11}},
-          data, INFINITY);
+    check(cases::lighting_cases(), light_it,
+          {{"lit", xyz("lit"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative,
+            1e-11}});
 }
 
 TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
-    cases::LightingCases c = cases::lighting_cases();
     const float z = 1, far = 1e20f, near = 1e-20f;
     const Columns columns{{"p.x", {2, 2 + 1e-6f, far, near, 2}},
                           {"p.y", {-1, -1, far, near, -1}},
@@ -34,10 +30,9 @@ TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
                           {"v.y", {0, 0, 0, 0, 0}},
                           {"v.z", {z, -z, z, -z, -z}},
                           {"roughness", {0, 0, 1, 0, 0}}};
-    KernelData data;
-    data.constants = std::move(c.constants);
+    const ColumnData data = cases::lighting_cases().data;
     for (const int lanes : {1, 4, 8, 16}) {
-        const Results r = run_kernel({{"shade/lighting.clh"}, light_it, xyz("lit")}, columns, {lanes, false}, data);
+        const Results r = run_kernel({light_it, xyz("lit")}, columns, {lanes, false}, data);
         for (const auto& channel : r)
             for (std::size_t i = 0; i < channel.size(); ++i)
                 EXPECT_TRUE(std::isfinite(channel[i])) << "row " << i << ", " << lanes << " lanes";
@@ -52,10 +47,9 @@ TEST(Lighting, RatioIsBounded) {
             c.in("now", now), c.in("old", old);
             c.out("ratio", reference::relight_ratio<real>(1, static_cast<float>(now), static_cast<float>(old), 4));
         }
-    KernelData data;
-    data.constants = {4};
-    check(c, {"shade/lighting.clh"}, "real ratio = wr_relight_ratio(now, old, constants[0]);",
-          {{"ratio", {"ratio"}, Metric::relative, 0, 5e-7}}, data);
+    c.data.constants = {4};
+    check(c, "real ratio = wr_relight_ratio(now, old, constants[0]);",
+          {{"ratio", {"ratio"}, ErrorMeasure::relative, 0, 5e-7}});
 }
 
 }  // namespace

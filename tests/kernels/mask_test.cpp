@@ -9,13 +9,12 @@ namespace wrinkle::test {
 namespace {
 
 constexpr int all_lanes[] = {1, 4, 8, 16};
-const std::vector<std::string> includes{"compose/mask.clh"};
 
 TEST(Mask, ObjectIndex) {
     const Columns columns{{"object", {3, 0, -3, 3.5f, NAN, INFINITY, 3, 16777216.0f}}};
     for (const int lanes : all_lanes) {
-        const Results r = run_kernel({includes, "", {"wr_mask_object(object, 3)", "wr_mask_object(object, 16777216)"}},
-                                     columns, {lanes, false});
+        const Results r = run_kernel({"", {"wr_mask_object(object, 3)", "wr_mask_object(object, 16777216)"}}, columns,
+                                     {lanes, false});
         EXPECT_EQ(r[0], (std::vector<double>{1, 0, 0, 0, 0, 0, 1, 0})) << lanes << " lanes";
         EXPECT_EQ(r[1], (std::vector<double>{0, 0, 0, 0, 0, 0, 0, 1})) << lanes << " lanes";
     }
@@ -40,7 +39,7 @@ TEST(Mask, CryptomatteComparesBits) {
     for (const std::uint32_t wanted : ids)
         outputs.push_back(fmt::format("wr_mask_cryptomatte(wr_load_floats(in_id, at), coverage, {}u)", wanted));
     for (const int lanes : all_lanes) {
-        const Results r = run_kernel({includes, "", outputs}, columns, {lanes, false});
+        const Results r = run_kernel({"", outputs}, columns, {lanes, false});
         for (std::size_t k = 0; k < std::size(ids); ++k)
             for (std::size_t i = 0; i < std::size(ids); ++i)
                 EXPECT_EQ(r[k][i], i == k ? 0.75 : 0)
@@ -52,7 +51,7 @@ TEST(Mask, ChannelIsClampedAndNanIsNothing) {
     const Columns columns{{"value", {-1, 0, 0.25f, 1, 7, NAN, INFINITY, -INFINITY, -0.0f}}};
     for (const bool fp64 : {false, true})
         for (const int lanes : all_lanes)
-            EXPECT_EQ(run_kernel({includes, "", {"wr_mask_channel(value)"}}, columns, {lanes, fp64})[0],
+            EXPECT_EQ(run_kernel({"", {"wr_mask_channel(value)"}}, columns, {lanes, fp64})[0],
                       (std::vector<double>{0, 0, 0.25, 1, 1, 0, 1, 0, 0}))
                 << lanes << " lanes";
 }

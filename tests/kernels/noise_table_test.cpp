@@ -16,10 +16,9 @@ std::vector<float> count(int n) {
 }
 
 TEST(NoiseTable, HashHoldsNeighboursOfThePermutation) {
-    const Results r = run_kernel({{"sources/noise_table.clh"},
-                                  "ushort entry = wr_perlin_hash[(int)i];",
-                                  {"(real)(entry & 255)", "(real)(entry >> 8)"}},
-                                 {{"i", count(512)}}, {1, false});
+    const Results r =
+        run_kernel({"ushort entry = wr_perlin_hash[(int)i];", {"(real)(entry & 255)", "(real)(entry >> 8)"}},
+                   {{"i", count(512)}}, {1, false});
     for (std::size_t i = 0; i < 512; ++i) {
         EXPECT_EQ(r[0][i], perlin_permutation[i & 255]) << i;
         EXPECT_EQ(r[1][i], perlin_permutation[(i + 1) & 255]) << i;
@@ -27,10 +26,9 @@ TEST(NoiseTable, HashHoldsNeighboursOfThePermutation) {
 }
 
 TEST(NoiseTable, GradientsAreTheDirectionsOfTheHash) {
-    const Results r = run_kernel({{"sources/noise_table.clh", "sources/noise.clh"},
-                                  "vec3 g = wr_perlin_corner((index)((int)wr_perlin_gradient[(int)i]));",
-                                  {"g.x", "g.y", "g.z"}},
-                                 {{"i", count(514)}}, {1, false});
+    const Results r =
+        run_kernel({"vec3 g = wr_perlin_corner((index)((int)wr_perlin_gradient[(int)i]));", {"g.x", "g.y", "g.z"}},
+                   {{"i", count(514)}}, {1, false});
     for (std::size_t i = 0; i < 514; ++i) {
         const auto want = reference::perlin_direction<double>(perlin_permutation[i & 255]);
         EXPECT_EQ(r[0][i], want.x) << i;

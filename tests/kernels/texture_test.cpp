@@ -6,12 +6,10 @@
 namespace wrinkle::test {
 namespace {
 
-const std::vector<std::string> includes{"sources/texture.clh"};
-
 /// One picture of odd size with a channel pair, repeated.
 struct Picture {
     cases::Pyramid pyramid;
-    cases::TextureCases out{{.name = "texture samples"}, {}, {}, {}};
+    cases::Cases cases{.name = "texture samples"};
 
     Picture() {
         cases::Random random(3);
@@ -21,14 +19,14 @@ struct Picture {
         const auto texel = [](const auto& level, int c, int x, int y) {
             return level.at(c, x, y, cases::Address::repeat);
         };
-        out.add_texture(pyramid, 1, texel);
-        out.add_texture(pyramid, 2, texel);
+        cases::add_texture(this->cases.data, pyramid, 1, texel);
+        cases::add_texture(this->cases.data, pyramid, 2, texel);
     }
 };
 
 TEST(Texture, SamplesAreTrilinear) {
     Picture picture;
-    cases::Cases& c = picture.out.cases;
+    cases::Cases& c = picture.cases;
     for (unsigned seed = 1; seed <= 300; ++seed) {
         cases::Random random(seed);
         const V2 st = seed % 4 == 0 ? V2{real(random.below(22)) / 21, real(random.below(12)) / 11}
@@ -40,21 +38,17 @@ TEST(Texture, SamplesAreTrilinear) {
         const auto channel = [&](int k) { return sample(picture.pyramid, k, at, lod, cases::Address::repeat); };
         c.out("one", channel(0)), c.out("two", V2{channel(0), channel(1)});
     }
-    KernelData data;
-    data.texels = picture.out.texels;
-    data.textures = picture.out.table;
-    check(
-        c, includes,
-        "real s = wr_repeat(st.x), v = wr_repeat(st.y);\n"
-        "real one = wr_texture_sample1(wr_texture_at(texels, textures, 0), s, v, lod);\n"
-        "vec2 two = wr_texture_sample2(wr_texture_at(texels, textures, 1), s, v, lod);",
-        {{"one", {"one"}, Metric::absolute, 1e-5, 1e-5, 1e-7}, {"two", xy("two"), Metric::absolute, 1e-5, 1e-5, 1e-7}},
-        data, INFINITY);
+    check(c,
+          "real s = wr_repeat(st.x), v = wr_repeat(st.y);\n"
+          "real one = wr_texture_sample1(wr_texture_at(texels, textures, 0), s, v, lod);\n"
+          "vec2 two = wr_texture_sample2(wr_texture_at(texels, textures, 1), s, v, lod);",
+          {{"one", {"one"}, ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
+           {"two", xy("two"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
 }
 
 TEST(Texture, LodIsFiniteAndWithinThePyramidForAnyDerivative) {
     Picture picture;
-    cases::Cases& c = picture.out.cases;
+    cases::Cases& c = picture.cases;
     const real values[] = {0, 1e-45L, 1e-20L, 1.0L / 64, 1, 7, 1e10L, 1e20L, 3e38L};
     for (const real a : values)
         for (const real b : values) {
@@ -63,11 +57,8 @@ TEST(Texture, LodIsFiniteAndWithinThePyramidForAnyDerivative) {
             const real fa = static_cast<float>(a), fb = static_cast<float>(b);
             c.out("lod", reference::level_of_detail<real>({{fa, 0}, {0, -fb}}, 21, 11, 5));
         }
-    KernelData data;
-    data.texels = picture.out.texels;
-    data.textures = picture.out.table;
-    check(c, includes, "real lod = wr_texture_lod(wr_texture_at(texels, textures, 0), dx, dy);",
-          {{"lod", {"lod"}, Metric::absolute, 2e-6, 2e-6}}, data, 64);
+    check(c, "real lod = wr_texture_lod(wr_texture_at(texels, textures, 0), dx, dy);",
+          {{"lod", {"lod"}, ErrorMeasure::absolute, 2e-6, 2e-6}});
 }
 
 /// Coordinates stay within the texture, whatever they are: an index outside would read foreign memory.
@@ -75,7 +66,7 @@ TEST(Texture, CoordinatesStayInsideForAnyNumber) {
     const Columns columns{
         {"s", {-0.0f, -1e-45f, -1e-10f, 0.25f, 1.0f, -1.0f, 1e5f, -3.4e38f, 3.4e38f, INFINITY, -INFINITY, NAN}}};
     for (const int lanes : {1, 4, 8, 16}) {
-        const Results r = run_kernel({includes, "", {"wr_repeat(s)", "wr_clamp(s)"}}, columns, {lanes, false});
+        const Results r = run_kernel({"", {"wr_repeat(s)", "wr_clamp(s)"}}, columns, {lanes, false});
         for (std::size_t i = 0; i < r[0].size(); ++i)
             for (const auto& column : r)
                 EXPECT_TRUE(column[i] >= 0 && column[i] <= 1)

@@ -25,15 +25,15 @@ TEST(Vec, CompensatedFormsKeepTheirDigitsWhereTermsCancel) {
         c.out("dot2", dot(a, o));
         c.out("triple", dot(n, cross(a, b)));
     }
-    check(c, {}, "vec3 axb = wr_cross(a, b);",
-          {{"dop", {"wr_dop(a.x, b.y, a.y, b.x)"}, Metric::relative, 1.2e-7, 1.2e-7},
-           {"cross", xyz("axb"), Metric::relative, 1.2e-7, 1.2e-7},
-           {"dot2", {"wr_dot2(a, o)"}, Metric::relative, 1.2e-7, 1.2e-7}});
+    check(c, "vec3 axb = wr_cross(a, b);",
+          {{"dop", {"wr_dop(a.x, b.y, a.y, b.x)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7},
+           {"cross", xyz("axb"), ErrorMeasure::relative, 1.2e-7, 1.2e-7},
+           {"dot2", {"wr_dot2(a, o)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7}});
     for (std::size_t row = 0; row < c.size(); ++row) {  // twice the precision is not more than that
         const real terms = length(c.vec(row, "n")) * length(c.vec(row, "a")) * length(c.vec(row, "b"));
         c.allowance[row] = std::max(real{1}, 1e-7L * terms / std::abs(c.want["triple"][row].x));
     }
-    check(c, {}, "", {{"triple", {"wr_triple(n, a, b)"}, Metric::relative, 1.2e-7, 1.2e-7}});
+    check(c, "", {{"triple", {"wr_triple(n, a, b)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7}});
 }
 
 TEST(Vec, NormalizeOfAnyLength) {
@@ -55,8 +55,8 @@ TEST(Vec, NormalizeOfAnyLength) {
     add("normalize the largest", V{largest, -largest, largest});
     add("normalize the smallest", V{0, 1e-45L, 0});
     add("normalize zero", V{});
-    check(c, {}, "vec3 r = wr_normalize(v); real p = wr_prescale(wr_largest(v)) * wr_largest(v);",
-          {{"unit", xyz("r"), Metric::absolute, 0, 2.4e-7}, {"unit", xyz("r"), Metric::angle, 0, 1e-5}});
+    check(c, "vec3 r = wr_normalize(v); real p = wr_prescale(wr_largest(v)) * wr_largest(v);",
+          {{"unit", xyz("r"), ErrorMeasure::absolute, 0, 2.4e-7}, {"unit", xyz("r"), ErrorMeasure::degrees, 0, 1e-5}});
 }
 
 TEST(Vec, PrescaleIsAPowerOfTwoThatBringsSizesNearOne) {
@@ -66,7 +66,7 @@ TEST(Vec, PrescaleIsAPowerOfTwoThatBringsSizesNearOne) {
     for (const bool fp64 : {false, true})
         for (const int lanes : {1, 4, 8, 16}) {
             const Results r =
-                run_kernel({{}, "", {"wr_prescale(size)", "size * wr_prescale(size)"}}, columns, {lanes, fp64});
+                run_kernel({"", {"wr_prescale(size)", "size * wr_prescale(size)"}}, columns, {lanes, fp64});
             for (std::size_t i = 0; i < r[0].size(); ++i) {
                 int exponent;
                 EXPECT_EQ(std::frexp(r[0][i], &exponent), 0.5);
@@ -74,7 +74,7 @@ TEST(Vec, PrescaleIsAPowerOfTwoThatBringsSizesNearOne) {
                 EXPECT_LT(r[1][i], 2) << columns["size"][i];
             }
         }
-    const Results zero = run_kernel({{}, "", {"wr_prescale(size)"}}, {{"size", {0, 1e-45f, 3.4e38f}}}, {8, false});
+    const Results zero = run_kernel({"", {"wr_prescale(size)"}}, {{"size", {0, 1e-45f, 3.4e38f}}}, {8, false});
     for (const double power : zero[0]) EXPECT_TRUE(std::isfinite(power) && power > 0);
 }
 
@@ -85,14 +85,14 @@ TEST(Vec, SoundTellsFiniteVectors) {
                           {"v.z", {0, 1e-45f, 0, 0, inf, 0, 0, 3.4e38f}}};
     for (const bool fp64 : {false, true})
         for (const int lanes : {1, 4, 8, 16})
-            EXPECT_EQ(run_kernel({{}, "", {"truth(wr_sound(v))"}}, columns, {lanes, fp64})[0],
+            EXPECT_EQ(run_kernel({"", {"truth(wr_sound(v))"}}, columns, {lanes, fp64})[0],
                       (std::vector<double>{1, 1, 0, 0, 0, 0, 0, 1}));
 }
 
 TEST(Vec, RampIsClamped) {
     const Columns columns{{"v", {-5, 0, 1, 1.5f, 2, 2.5f, 3, 99}}};
     for (const int lanes : {1, 4, 8, 16})
-        EXPECT_EQ(run_kernel({{}, "", {"wr_ramp(v, (real)(1), (real)(3))"}}, columns, {lanes, false})[0],
+        EXPECT_EQ(run_kernel({"", {"wr_ramp(v, (real)(1), (real)(3))"}}, columns, {lanes, false})[0],
                   (std::vector<double>{0, 0, 0, 0.25, 0.5, 0.75, 1, 1}));
 }
 

@@ -1,0 +1,110 @@
+#include "wrinkle/functions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "functions/tables.h"
+#include "scene/problems.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+std::vector<std::string> all_columns(const auto& parameters) {
+    std::vector<std::string> out;
+    for (const Parameter& parameter : parameters)
+        for (std::string& column : parameter.columns()) out.push_back(std::move(column));
+    return out;
+}
+
+/// Checks columns against what the function has; gives the number of rows.
+template <class Map>
+std::size_t check_columns(const Function& function, const Map& columns, const std::vector<std::string>& known, bool all,
+                          const char* what) {
+    const auto fail = [&](const std::string& text) { throw Error(fmt::format("{}: {}", function.name, text)); };
+    for (const auto& [name, values] : columns)
+        if (std::ranges::find(known, name) == known.end())
+            fail(fmt::format("has no {} column \"{}\"{}", what, name, scene::did_you_mean(name, known)));
+    std::size_t rows = columns.empty() ? 0 : columns.begin()->second.size();
+    for (const std::string& name : known) {
+        const auto found = columns.find(name);
+        if (found == columns.end() && all) fail(fmt::format("needs the {} column \"{}\"", what, name));
+        if (found != columns.end() && found->second.size() != rows)
+            fail(fmt::format("the {} column \"{}\" has {} rows, \"{}\" has {}", what, name, found->second.size(),
+                             columns.begin()->first, rows));
+    }
+    return rows;
+}
+
+template <class T>
+void evaluate(const Device& device, const Function& function, const std::map<std::string, std::span<const T>>& in,
+              const std::map<std::string, std::span<T>>& out, const FunctionOptions& options) {
+    const std::vector<std::string> results = all_columns(function.results);
+    const std::size_t rows = check_columns(function, in, all_columns(function.parameters), true, "input"),
+                      wanted = check_columns(function, out, results, false, "result");
+    if (!out.empty() && wanted != rows)
+        throw Error(fmt::format("{}: {} rows of results for {} rows of input", function.name, wanted, rows));
+    const bool fp64 = std::is_same_v<T, double>;
+    if (fp64 && !device.info.fp64)
+        throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
+    const int lanes = options.lanes != 0 ? options.lanes : std::min(device.info.lanes, fp64 ? 8 : 16);
+    const ColumnKernel kernel = column_kernel(function, function.variant(fp64 ? Precision::fp64 : options.precision));
+    const auto got = run_columns<T>(device, kernel, in, lanes, column_data(function, options.settings));
+    for (const auto& [name, values] : out)
+        std::ranges::copy(got[static_cast<std::size_t>(std::ranges::find(results, name) - results.begin())],
+                          values.begin());
+}
+
+}  // namespace
+
+std::vector<std::string> Parameter::columns() const {
+    switch (shape) {
+        case Shape::number:
+            return {name};
+        case Shape::pair:
+            return {name + ".x", name + ".y"};
+        case Shape::vector:
+            break;
+    }
+    return {name + ".x", name + ".y", name + ".z"};
+}
+
+const FunctionVariant& Function::variant(Precision wanted) const {
+    for (const FunctionVariant& variant : variants)
+        if (variant.precision >= wanted) return variant;
+    return variants.back();
+}
+
+const std::vector<Function>& functions() {
+    static const std::vector<Function> all = [] {
+        std::vector<Function> table;
+        for (auto part : {surface_functions, source_functions, compose_functions})
+            for (Function& function : part()) table.push_back(std::move(function));
+        return table;
+    }();
+    return all;
+}
+
+const Function& function(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Function& function : functions()) {
+        if (function.name == name) return function;
+        names.push_back(function.name);
+    }
+    throw Error(fmt::format("there is no function \"{}\"{} see wrinkle eval --list", name,
+                            scene::did_you_mean(name, names).empty() ? ";" : scene::did_you_mean(name, names) + ";"));
+}
+
+void evaluate_function(const Device& device, const Function& function, const Columns& in, const ColumnResults& out,
+                       const FunctionOptions& options) {
+    evaluate<float>(device, function, in, out, options);
+}
+
+void evaluate_function(const Device& device, const Function& function, const ColumnsInDouble& in,
+                       const ColumnResultsInDouble& out, const FunctionOptions& options) {
+    evaluate<double>(device, function, in, out, options);
+}
+
+}  // namespace wrinkle

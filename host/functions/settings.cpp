@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "functions/tables.h"
+#include "run/frame_constants.h"
+#include "run/texture_heap.h"
+#include "scene/problems.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+using Kind = Setting::Kind;
+
+constexpr std::size_t kLatticeOctaves = 16;
+constexpr std::size_t kFrameNumbers = sizeof(wr_frame) / sizeof(double),
+                      kDecalNumbers = sizeof(wr_decal) / sizeof(double);
+
+/// Numbers that a value of this kind has; {0, 0} where it is not made of numbers.
+struct Count {
+    std::size_t least, most;
+};
+Count numbers_of(Kind kind) {
+    switch (kind) {
+        case Kind::number:
+            return {1, 1};
+        case Kind::vector:
+            return {3, 3};
+        case Kind::lattice:
+            return {2, 2};
+        case Kind::projector:
+            return {12, 15};
+        default:
+            return {0, 0};
+    }
+}
+
+const char* wanted_text(Kind kind) {
+    switch (kind) {
+        case Kind::number:
+            return "a number";
+        case Kind::vector:
+            return "3 numbers";
+        case Kind::camera:
+            return "a camera and the frame's size";
+        case Kind::height_texture:
+        case Kind::slope_texture:
+            return "an image file";
+        case Kind::projector:
+            return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
+        case Kind::lattice:
+            return "2 numbers, the frequency of the first octave and the lacunarity";
+    }
+    return "";
+}
+
+template <class Struct>
+void append(std::vector<double>& to, const Struct& from) {
+    const auto* numbers = reinterpret_cast<const double*>(&from);
+    to.insert(to.end(), numbers, numbers + sizeof(Struct) / sizeof(double));
+}
+
+wr_decal decal_of(const std::vector<double>& v) {
+    const auto three = [&](std::size_t i) { return Vec3{v[i], v[i + 1], v[i + 2]}; };
+    DecalLayer decal{.texture = {}, .center = three(0), .axis_x = three(3), .axis_y = three(6), .half_size = three(9)};
+    decal.falloff = v.size() > 12 ? v[12] : 0;
+    decal.angle_fade = v.size() > 14 ? std::array{v[13], v[14]} : std::array{-2.0, -1.0};
+    return decal_constants(decal, 1, 0, {});
+}
+
+void append_lattice(std::vector<double>& to, double frequency, double lacunarity) {
+    for (std::size_t i = 0; i < kLatticeOctaves; ++i, frequency *= lacunarity)
+        to.insert(to.end(), {0, 0, 0, frequency});
+}
+
+}  // namespace
+
+SettingSize size_of(const Setting& setting) {
+    switch (setting.kind) {
+        case Kind::vector:
+            return {3, 0};
+        case Kind::camera:
+            return {kFrameNumbers, 0};
+        case Kind::projector:
+            return {0, kDecalNumbers};
+        case Kind::lattice:
+            return {4 * kLatticeOctaves, 0};
+        default:
+            return {1, 0};  // a number, or the number of a texture
+    }
+}
+
+ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values) {
+    std::vector<std::string> known;
+    for (const Setting& setting : function.settings) known.push_back(setting.name);
+    for (const auto& [name, value] : values)
+        if (std::ranges::find(known, name) == known.end())
+            throw Error(
+                fmt::format("{} has no setting \"{}\"{}", function.name, name, scene::did_you_mean(name, known)));
+    ColumnData data;
+    std::vector<PlannedTexture> textures;
+    for (const Setting& setting : function.settings) {
+        const auto found = values.find(setting.name);
+        if (found == values.end() && setting.standard.empty())
+            throw Error(fmt::format("{} needs the setting \"{}\": {}, {}", function.name, setting.name,
+                                    wanted_text(setting.kind), setting.meaning));
+        const SettingValue value = found == values.end() ? SettingValue{setting.standard} : found->second;
+        const auto* numbers = std::get_if<std::vector<double>>(&value);
+        const auto* camera = std::get_if<CameraSetting>(&value);
+        const auto* file = std::get_if<std::filesystem::path>(&value);
+        const Count count = numbers_of(setting.kind);
+        const bool fits = setting.kind == Kind::camera ? camera != nullptr
+                          : count.most == 0
+                              ? file != nullptr
+                              : numbers && numbers->size() >= count.least && numbers->size() <= count.most;
+        if (!fits)
+            throw Error(fmt::format("{}: the setting \"{}\" must be {}", function.name, setting.name,
+                                    wanted_text(setting.kind)));
+        switch (setting.kind) {
+            case Kind::number:
+            case Kind::vector:
+                data.constants.insert(data.constants.end(), numbers->begin(), numbers->end());
+                break;
+            case Kind::lattice:
+                append_lattice(data.constants, (*numbers)[0], (*numbers)[1]);
+                break;
+            case Kind::camera:
+                append(data.constants, camera_constants(camera->camera, camera->size));
+                break;
+            case Kind::projector:
+                append(data.records, decal_of(*numbers));
+                break;
+            case Kind::height_texture:
+            case Kind::slope_texture:
+                data.constants.push_back(static_cast<double>(textures.size()));
+                textures.push_back(
+                    {{.file = *file}, setting.kind == Kind::slope_texture ? TexelKind::slope : TexelKind::height});
+                break;
+        }
+    }
+    if (!textures.empty()) {
+        TextureHeap heap = load_textures(textures);
+        data.texels = std::move(heap.texels);
+        data.textures = std::move(heap.table);
+    }
+    return data;
+}
+
+ColumnKernel column_kernel(const Function& function, const FunctionVariant& variant) {
+    ColumnKernel kernel;
+    SettingSize at;
+    for (const Setting& setting : function.settings) {
+        const std::string here = fmt::format("constants + {}", at.constants);
+        std::string value;
+        switch (setting.kind) {
+            case Kind::number:
+                value = fmt::format("WR_SCALAR {} = constants[{}]", setting.name, at.constants);
+                break;
+            case Kind::vector:
+                value = fmt::format("vec3 {} = wr_v3({})", setting.name, here);
+                break;
+            case Kind::lattice:
+                value = fmt::format("constant const WR_SCALAR *{} = {}", setting.name, here);
+                break;
+            case Kind::camera:
+                value =
+                    fmt::format("constant const wr_frame *{} = (constant const wr_frame *)({})", setting.name, here);
+                break;
+            case Kind::projector:
+                value = fmt::format("global const wr_decal *{} = (global const wr_decal *)(records + {})", setting.name,
+                                    at.records);
+                break;
+            case Kind::height_texture:
+            case Kind::slope_texture:
+                value = fmt::format("wr_texture {} = wr_texture_at(texels, textures, (uint)constants[{}])",
+                                    setting.name, at.constants);
+                break;
+        }
+        kernel.body += fmt::format("    {};\n", value);
+        const SettingSize size = size_of(setting);
+        at.constants += size.constants, at.records += size.records;
+    }
+    for (const Result& result : function.results) {
+        const char* const types[] = {"real", "vec2", "vec3"};
+        kernel.body += fmt::format("    {} {};\n", types[static_cast<int>(result.shape)], result.name);
+        for (const std::string& column : result.columns()) kernel.outputs.push_back(column);
+    }
+    kernel.body += "    " + variant.text;
+    return kernel;
+}
+
+}  // namespace wrinkle

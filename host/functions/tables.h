@@ -1,0 +1,25 @@
+#pragma once
+
+#include "functions/column_kernel.h"
+#include "wrinkle/functions.h"
+
+/// The rows of functions(), one file a concept.
+namespace wrinkle {
+
+std::vector<Function> surface_functions();
+std::vector<Function> source_functions();
+std::vector<Function> compose_functions();
+
+/// The kernel that computes every result, and its outputs in the order of the results' columns.
+ColumnKernel column_kernel(const Function& function, const FunctionVariant& variant);
+
+/// How many constants or records a setting takes up; constants follow one another in the order of the settings.
+struct SettingSize {
+    std::size_t constants = 0, records = 0;
+};
+SettingSize size_of(const Setting& setting);
+
+/// The numbers and textures of the settings. Throws Error for one that is missing, unknown, or of another kind.
+ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values);
+
+}  // namespace wrinkle

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "plan/section.h"
+
+namespace wrinkle {
+
+/// What the kinds of layers share when they become kernel text. The text stands in a block where `m` holds the mask and
+/// `active` the lanes that want the layer; it adds to g or dh_dp.
+struct LayerText {
+    Emitter& emitter;
+    const Layer& layer;
+    const std::string who;  ///< starts messages
+    Section& section;
+
+    /// The layer's scale, with the sign of its blend.
+    std::string strength() const;
+    /// Level of detail of texture `t` for these derivatives of its coordinates.
+    std::string lod(const std::string& dx, const std::string& dy) const;
+    /// Declares coordinates `c`, texture `t` and its `slope`, for a source that samples one texture over a UV mapping.
+    std::string textured(const TextureUse& use, const UvMapping& uv);
+    /// Adds a volume gradient.
+    std::string volume(const std::string& gradient);
+};
+
+/// How the texels of `use` are stored.
+TexelKind texel_kind(const TextureUse& use);
+/// Name of the kernel function that samples the slopes of `use`.
+std::string slope_function(const TextureUse& use);
+/// Expected operations of such a sample.
+double sample_cost(const TextureUse& use);
+
+/// Kernel text of a layer, one function a kind.
+std::string emit(LayerText& at, const NormalMapLayer& l);
+std::string emit(LayerText& at, const HeightMapLayer& l);
+std::string emit(LayerText& at, const TriplanarLayer& l);
+std::string emit(LayerText& at, const NoiseLayer& l);
+std::string emit(LayerText& at, const ConstantLayer& l);
+
+/// Decals that may share a loop: same mask, same way to sample.
+bool same_loop(const Layer& a, const Layer& b);
+/// Consecutive decals as one loop.
+std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers);
+
+}  // namespace wrinkle

@@ -1,0 +1,37 @@
+#include "scene/layer_readers.h"
+
+namespace wrinkle::scene {
+
+void read_weight(Table& table, Layer& layer) {
+    table.read("scale", layer.scale);
+    table.choose("blend", layer.blend, {{"add", Blend::add}, {"subtract", Blend::subtract}});
+    table.read("footprint", layer.footprint);
+    if (auto mask = table.table("mask", "mask of " + table.where())) read_mask(*mask, layer.mask);
+}
+
+void read_texture_file(Table& table, TextureUse& texture) {
+    table.require("texture");
+    table.read_file("texture", texture.file);
+}
+
+void read_green(Table& table, TextureUse& texture) { table.choose("y", texture.y_down, {{"+", false}, {"-", true}}); }
+
+void read_upscale(Table& table, TextureUse& texture) {
+    table.choose("upscale", texture.upscale, {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}});
+}
+
+void read_any_texture(Table& table, TextureUse& texture) {
+    read_texture_file(table, texture);
+    table.choose("content", texture.content, {{"height", Content::height}, {"normal", Content::normal}});
+    read_green(table, texture);
+    read_upscale(table, texture);
+    table.only_with("y", texture.content == Content::normal, "content", "normal");
+    table.only_with("upscale", texture.content == Content::height, "content", "height");
+}
+
+void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping) {
+    table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
+    if (auto uv = table.table("uv", "uv of " + table.where())) read_uv(*uv, mapping);
+}
+
+}  // namespace wrinkle::scene

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "scene/readers.h"
+
+/// What the readers of the layer kinds share.
+namespace wrinkle::scene {
+
+/// scale, blend, footprint, mask
+void read_weight(Table& table, Layer& layer);
+/// texture
+void read_texture_file(Table& table, TextureUse& texture);
+/// y
+void read_green(Table& table, TextureUse& texture);
+/// upscale
+void read_upscale(Table& table, TextureUse& texture);
+/// texture, content, y, upscale: for kinds whose texture holds either content
+void read_any_texture(Table& table, TextureUse& texture);
+/// wrap, uv
+void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
+
+/// One function a kind.
+void read_normal_map(Table& table, Layer& layer);
+void read_height_map(Table& table, Layer& layer);
+void read_triplanar(Table& table, Layer& layer);
+void read_noise(Table& table, Layer& layer);
+void read_decal(Table& table, Layer& layer);
+
+}  // namespace wrinkle::scene
