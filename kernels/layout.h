@@ -49,5 +49,9 @@ typedef struct {
 #define WR_TEXTURE_LEVELS 2
 #define WR_TEXTURE_OFFSETS 3  // of each level's first float in the texel buffer
 #define WR_TEXTURE_WORDS 19
+// ... and of a volume, in the same table
+#define WR_VOLUME_BLOCKS 0  // of 8^3 cells along x, y, z
+#define WR_VOLUME_FIRST 3   // index of the first voxel of the first block, signed
+#define WR_VOLUME_INDEX 6   // of the texel that holds the first of the blocks' offsets
 
 #endif

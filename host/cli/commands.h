@@ -9,5 +9,7 @@ void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_devices(CLI::App& app);
+/// bake-volume and bake-frame
+void add_bake(CLI::App& app);
 
 }  // namespace wrinkle::cli

@@ -21,12 +21,19 @@ enum class CameraKind {
 
 CameraKind camera_kind(const Camera& camera, Size size);
 
+/// What a plan must know of a volume.
+struct VolumeFacts {
+    bool vectors = false;
+    Mat4 index_from_world{};
+};
+
 /// What a plan may count on.
 struct Available {
     std::set<std::string> planes;  ///< names as in wrinkle/gbuffer.h
     CameraKind camera = CameraKind::pinhole;
     bool ray_depth = false;                            ///< the depth plane holds distances along rays
     std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of the known object names
+    std::map<std::pair<std::string, std::string>, VolumeFacts> volumes{};  ///< by file and grid, as the scene has them
 };
 
 /// What is wanted of a plan beyond the scene.
@@ -48,10 +55,11 @@ struct Origin {
 };
 
 /// A texture as kernels sample it.
-enum class TexelKind { slope, height, mask };
+enum class TexelKind { slope, height, mask, volume, volume_smooth };
 struct PlannedTexture {
     TextureUse use;
     TexelKind kind = TexelKind::slope;
+    std::string grid{};  ///< of a volume
 };
 
 /// One kernel: its planes in the order of its arguments. Scratch planes exist in split plans only.

@@ -38,6 +38,15 @@ std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
     return plan.textures.size() - 1;
 }
 
+std::size_t Emitter::volume(const VolumeLayer& layer, TexelKind kind) {
+    for (std::size_t i = 0; i < plan.textures.size(); ++i) {
+        const PlannedTexture& known = plan.textures[i];
+        if (known.kind == kind && known.use.file == layer.file && known.grid == layer.grid) return i;
+    }
+    plan.textures.push_back({{.file = layer.file}, kind, layer.grid});
+    return plan.textures.size() - 1;
+}
+
 std::size_t Emitter::origin(const Origin& origin) {
     plan.origins.push_back(origin);
     return plan.origins.size() - 1;

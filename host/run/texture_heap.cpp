@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/volume_file.h"
+#include "run/volume_heap.h"
 #include "wrinkle/error.h"
 
 #define WR_SCALAR double
@@ -104,6 +106,10 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
     for (const PlannedTexture& texture : planned) {
+        if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
+            add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
+            continue;
+        }
         const bool normals = texture.kind == TexelKind::slope && texture.use.content == Content::normal;
         add_texture(heap, load_texture(texture.use.file, normals ? ImageUse::normal : ImageUse::scalar), texture);
     }

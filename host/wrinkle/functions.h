@@ -46,8 +46,8 @@ struct Result : Parameter {
 };
 
 /// What is the same for all rows. Kernel text sees a number as a WR_SCALAR, a vector as a vec3, a camera as `constant
-/// const wr_frame *`, a texture as a wr_texture, a projector as `global const wr_decal *`, a lattice as the `constant
-/// const WR_SCALAR *` that fractal sums take.
+/// const wr_frame *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const wr_decal *`, a
+/// lattice as the `constant const WR_SCALAR *` that fractal sums take.
 struct Setting {
     enum class Kind {
         number,
@@ -55,6 +55,8 @@ struct Setting {
         camera,          ///< a camera file and the size of the frame
         height_texture,  ///< an image file: heights, as they are
         slope_texture,   ///< ... their slopes
+        volume,          ///< a volume file, or FILE#GRID, for trilinear samples
+        smooth_volume,   ///< ... for B-splines
         projector,       ///< center, axis_x, axis_y, half_size: 12 numbers; then falloff, angle_fade as cosines: 3 more
         lattice,         ///< frequency of the first octave, lacunarity
     };

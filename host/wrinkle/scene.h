@@ -107,6 +107,31 @@ struct DecalLayer {
     std::array<double, 2> angle_fade{0.25, 0.5};  ///< cosine of normal to axis_z: 0 below the first, 1 above the second
 };
 
+/// What a volume's value becomes before it is a height; t goes from 0 to 1 over a range of values.
+enum class Remap {
+    none,    ///< the value itself
+    ramp,    ///< t, flat outside the range
+    smooth,  ///< 3 t^2 - 2 t^3, flat outside the range
+    wave,    ///< sin(2 pi t)
+};
+
+enum class VolumeFilter {
+    linear,  ///< trilinear: exact at voxels; the gradient jumps from cell to cell
+    smooth,  ///< quadratic B-spline: a continuous gradient, the values smoothed a little
+};
+
+/// A grid of an OpenVDB or NanoVDB file. Of values: heights everywhere in space. Of vectors: the volume gradient dh/dp
+/// itself, world. Outside the grid nothing is bumped.
+struct VolumeLayer {
+    static constexpr const char* kind = "volume";
+    std::filesystem::path file{};
+    std::string grid{};  ///< empty: the only one of the file
+    VolumeFilter filter = VolumeFilter::linear;
+    Remap remap = Remap::none;
+    std::array<double, 2> range{0, 1};
+    Mat4 transform{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};  ///< after the file's own; affine
+};
+
 /// The same volume gradient everywhere: dh/dp, world.
 struct ConstantLayer {
     static constexpr const char* kind = "constant";
@@ -123,7 +148,8 @@ enum class Blend { add, subtract };
 struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
-    std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, ConstantLayer, ResolveLayer>
+    std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, VolumeLayer, ConstantLayer,
+                 ResolveLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

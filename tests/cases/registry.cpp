@@ -9,14 +9,20 @@
 #include "tests/cases/tangent_normal.h"
 #include "tests/cases/texcoord.h"
 #include "tests/cases/triplanar.h"
+#include "tests/cases/volume.h"
 
 namespace wrinkle::cases {
 
 const std::map<std::string, Cases (*)()>& registry() {
     static const std::map<std::string, Cases (*)()> all{
+        {"golden_march", golden_march_cases},
+        {"golden_ratio", golden_ratio_cases},
         {"height_slope_plain", [] { return height_slope_cases(false); }},
         {"height_slope_smooth", [] { return height_slope_cases(true); }},
         {"perlin_noise", noise_cases},
+        {"remap_ramp", [] { return remap_cases(Remap::ramp); }},
+        {"remap_smooth", [] { return remap_cases(Remap::smooth); }},
+        {"remap_wave", [] { return remap_cases(Remap::wave); }},
         {"resolve", resolve_cases},
         {"screen_derivatives", [] { return screen_derivative_cases(true); }},
         {"screen_derivatives_general", [] { return screen_derivative_cases(false); }},
@@ -28,6 +34,9 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"texture_step", texcoord_step_cases},
         {"triplanar_gradient", triplanar_gradient_cases},
         {"triplanar_weights", triplanar_weight_cases},
+        {"volume_bspline", [] { return volume_cases(TexelKind::volume_smooth); }},
+        {"volume_trilinear", [] { return volume_cases(TexelKind::volume); }},
+        {"volume_vector", volume_vector_cases},
     };
     return all;
 }

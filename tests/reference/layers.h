@@ -2,12 +2,14 @@
 
 #include <functional>
 
+#include "io/volume_file.h"
 #include "tests/reference/decal.h"
 #include "tests/reference/fractal.h"
 #include "tests/reference/scale_dependent.h"
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
 #include "tests/reference/triplanar.h"
+#include "tests/reference/volume.h"
 
 namespace wrinkle::reference {
 
@@ -85,6 +87,27 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
         Vec2<T> d = texture.slope(at, footprint);
         if (texture.content == Content::height) d = {d.x / (2 * box.half_size.x), d.y / (2 * box.half_size.y)};
         return {{}, decal_volume_gradient(d, box.x, box.y) * weight};
+    };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const VolumeLayer& layer, bool, SceneTextures<T>&) {
+    const auto volume = std::make_shared<const Volume>(load_volume(layer.file, layer.grid));
+    const Mat4 m = multiply(volume->info.index_from_world, inverse(layer.transform));
+    const auto channel = [=](int c) -> Voxels<T> {
+        return [=](int x, int y, int z) { return T(volume->at(x, y, z, c)); };
+    };
+    return [=](const Surfel<T>& s) -> Contribution<T> {
+        const auto row = [&](int i) { return Vec<T>{T(m[i][0]), T(m[i][1]), T(m[i][2])}; };
+        const auto index = [&](int i) { return dot(row(i), s.position) + T(m[i][3]); };
+        const Vec<T> q{index(0), index(1), index(2)};
+        if (volume->info.channels == 3)
+            return {{},
+                    {trilinear(channel(0), q).value, trilinear(channel(1), q).value, trilinear(channel(2), q).value}};
+        const NoiseValue<T> v =
+            layer.filter == VolumeFilter::smooth ? quadratic_spline(channel(0), q) : trilinear(channel(0), q);
+        const Vec<T> dh_dp = row(0) * v.gradient.x + row(1) * v.gradient.y + row(2) * v.gradient.z;
+        return {{}, dh_dp * remapped(layer.remap, v.value, T(layer.range[0]), T(layer.range[1])).y};
     };
 }
 
