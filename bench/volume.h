@@ -14,7 +14,7 @@ struct VolumeRow {
     Timing seconds;
     double ns = 0;     ///< a sample
     double ratio = 0;  ///< to NanoVDB's cached gradient on the same walk: the median of the ratios of single runs
-    /// Relative error of the gradient against double: median, p99, largest.
+    /// Relative error of a trilinear gradient against double: median, p99, largest.
     double median = 0, p99 = 0, max = 0;
 };
 

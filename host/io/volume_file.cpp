@@ -77,20 +77,29 @@ bool is_nano(const fs::path& file) {
     return nano;
 }
 
-/// Runs `work`, what the libraries throw becoming an Error on `file`.
+/// A library's text without the name of its exception: "IoError: no space" says "no space".
+std::string reason(const std::string& text) {
+    const std::size_t colon = text.find(": ");
+    const bool named = colon != std::string::npos && text.find(' ') > colon;
+    return named ? text.substr(colon + 2) : text;
+}
+
+/// Runs `work`; what the libraries throw becomes the Error `what` of the file and the reason.
 template <class Work>
 auto told(const fs::path& file, const char* what, const Work& work) {
     try {
         return work();
     } catch (const Error&) { throw; } catch (const std::bad_alloc&) {
-        throw Error(fmt::format("{}: {}: it is damaged, or larger than the memory", file.string(), what));
-    } catch (const std::exception& error) { throw Error(fmt::format("{}: {}: {}", file.string(), what, error.what())); }
+        throw Error(fmt::format(fmt::runtime(what), file.string(), "out of memory"));
+    } catch (const std::exception& error) {
+        throw Error(fmt::format(fmt::runtime(what), file.string(), reason(error.what())));
+    }
 }
 
 /// The grid and its name.
 std::pair<RawVolume, std::string> read_grid(const fs::path& file, const std::string& wanted, bool voxels) {
     const bool nano = is_nano(file);
-    return told(file, "cannot be read", [&] {
+    return told(file, "{}: cannot be read ({}); it may be truncated or damaged", [&] {
         const std::vector<ListedGrid> grids = nano ? io::list_nvdb(file) : io::list_vdb(file);
         const std::size_t chosen = choose(file, grids, wanted);
         return std::pair(nano ? io::read_nvdb(file, chosen) : io::read_vdb(file, grids[chosen].name, voxels),
@@ -166,7 +175,7 @@ Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
 Volume load_volume(const fs::path& file, const std::string& grid) {
     auto [raw, name] = read_grid(file, grid, true);
     VolumeInfo info = info_of(file, name, raw);
-    return told(file, "cannot be used", [&] { return assemble(file, std::move(raw), std::move(info)); });
+    return told(file, "{}: cannot be used ({})", [&] { return assemble(file, std::move(raw), std::move(info)); });
 }
 
 VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
@@ -175,12 +184,18 @@ VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
 }
 
 void save_volume(const fs::path& file, const DenseVolume& volume) {
-    told(file, "cannot be written", [&] {
-        if (file.extension() == ".nvdb")
-            io::write_nvdb(file, volume);
-        else
-            io::write_vdb(file, volume);
-    });
+    fs::path partial = file;
+    partial += ".partial";  // renamed when it is complete
+    try {
+        told(file, "{}: cannot be written ({})", [&] {
+            file.extension() == ".nvdb" ? io::write_nvdb(partial, volume) : io::write_vdb(partial, volume);
+            fs::rename(partial, file);
+        });
+    } catch (const Error&) {
+        std::error_code ignored;
+        fs::remove(partial, ignored);
+        throw;
+    }
 }
 
 }  // namespace wrinkle

@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
                                          SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light},
                                          SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
                                          SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light},
-                                         SceneCase{"volume", {3e-6, 1e-3, 1e-1}, light}),
+                                         SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
