@@ -12,7 +12,7 @@ namespace wrinkle::bench {
 struct VolumeRow {
     std::string walk, name;
     Timing seconds;
-    double ns = 0;     ///< a sample
+    double ns = 0, best_ns = 0;  ///< a sample: median run, fastest run
     double ratio = 0;  ///< to NanoVDB's cached gradient on the same walk: the median of the ratios of single runs
     /// Relative error of a trilinear gradient against double: median, p99, largest.
     double median = 0, p99 = 0, max = 0;

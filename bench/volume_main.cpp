@@ -22,9 +22,10 @@ int main(int argc, char** argv) {
         std::string walk;
         for (const wrinkle::bench::VolumeRow& row : wrinkle::bench::measure_volumes(device, size, repetitions)) {
             if (row.walk != walk)
-                fmt::print("\n{:<42}{:>8} {:>7}  relative error: median, p99, max\n", row.walk, "ns", "ratio");
+                fmt::print("\n{:<42}{:>8} {:>8} {:>7}  relative error: median, p99, max\n", row.walk, "ns", "best",
+                           "ratio");
             walk = row.walk;
-            fmt::print("  {:<40}{:>8.2f} {:>7.2f}  ", row.name, row.ns, row.ratio);
+            fmt::print("  {:<40}{:>8.2f} {:>8.2f} {:>7.2f}  ", row.name, row.ns, row.best_ns, row.ratio);
             if (row.max > 0)
                 fmt::print("{:.1e} {:.1e} {:.1e}\n", row.median, row.p99, row.max);
             else
