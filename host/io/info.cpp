@@ -101,7 +101,7 @@ std::vector<Readiness> judge(const GBufferReader& reader, bool has_camera) {
 
     std::vector<Readiness> uses;
     for (const char* kind : {"normal_map", "height_map"}) uses.push_back({kind, need(base, "uv"), {}});
-    for (const char* kind : {"triplanar", "noise", "decal", "constant"}) uses.push_back({kind, base, {}});
+    for (const char* kind : {"triplanar", "noise", "decal", "volume", "constant"}) uses.push_back({kind, base, {}});
     Readiness lighting{"lighting", base, {}};
     for (const char* role : {"albedo", "roughness"}) {
         if (!reader.has_role(role)) lighting.defaults.emplace_back(role);
