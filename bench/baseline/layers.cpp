@@ -51,7 +51,10 @@ PreparedLayer LayerBuilder::layer(const Layer& in) {
     out.mask = mask(in.mask);
     std::visit(
         [&](const auto& kind) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(kind)>, ResolveLayer>) out.bump = bump(kind);
+            if constexpr (requires { out.bump = bump(kind); })
+                out.bump = bump(kind);
+            else
+                throw Unsupported("the plain C++ has no layers of kind " + std::string(kind.kind));
         },
         in.bump);
     return out;

@@ -59,6 +59,11 @@ void evaluate(const Device& device, const Function& function, const std::map<std
 
 }  // namespace
 
+std::string precision_name(Precision precision) {
+    const char* const names[] = {"fast", "standard", "exact", "double"};
+    return names[static_cast<int>(precision)];
+}
+
 std::vector<std::string> Parameter::columns() const {
     switch (shape) {
         case Shape::number:
