@@ -67,7 +67,7 @@ std::string roofline(const Run& run) {
     for (const Measurement& m : run.measurements)
         if (m.seconds.median > 0 && m.operations > 0 && m.lanes > 0 && m.variant != "double" && m.group != "start")
             data += fmt::format("{:.6g} {:.6g} {}\n", m.operations / m.bytes, m.gflop_per_s(),
-                                quoted(m.name + (m.group == "function" ? "" : ": " + m.variant)));
+                                quoted(m.name + (m.group == "function" || m.group == "layer" ? "" : ": " + m.variant)));
     return data +
            fmt::format(
                "EOD\nset title \"roofline\"\nset xlabel \"operations per byte\"\nset ylabel \"Gflop/s\"\n"

@@ -80,10 +80,17 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Measures wrinkle's speed beside its error, against plain C++ and the machine's ceilings in the same run."};
+        "Measures wrinkle's speed beside its error, against plain C++ and the machine's ceilings in the same run.",
+        "wrinkle bench"};
     Arguments arguments;
     describe(app, arguments);
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "wrinkle bench: {}\nRun \"wrinkle bench --help\" for what it can do.\n", error.what());
+        return 2;
+    }
     try {
         const Device device = Device::open(arguments.device);
         bench::Run run;
