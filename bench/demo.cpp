@@ -38,19 +38,17 @@ struct Resident {
 
 std::map<std::filesystem::path, baseline::Image> baseline_images(const Scene& scene) {
     std::map<std::filesystem::path, baseline::Image> images;
-    const auto add = [&](const std::filesystem::path& file, ImageUse use) {
-        Image image = load_texture(file, use);
-        images[file] = {image.width, image.height, image.channels, std::move(image.texels)};
+    const auto add = [&](const TextureUse& use) {
+        Image image = load_bump(use);
+        images[use.file] = {image.width, image.height, image.channels, std::move(image.texels)};
     };
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { bump.texture; })
-                    add(bump.texture.file,
-                        bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+                if constexpr (requires { bump.texture; }) add(bump.texture);
             },
             layer.bump);
-        if (layer.mask.texture) add(layer.mask.texture->file, ImageUse::scalar);
+        if (layer.mask.texture) add({.file = layer.mask.texture->file});
     }
     return images;
 }

@@ -14,19 +14,17 @@ namespace {
 /// Every texture a scene names, as the reference takes it.
 reference::Images reference_images(const Scene& scene) {
     reference::Images images;
-    const auto add = [&](const std::filesystem::path& file, ImageUse use) {
-        const Image image = load_texture(file, use);
-        images[file.string()] = {image.width, image.height, image.channels, image.texels};
+    const auto add = [&](const TextureUse& use) {
+        const Image image = load_bump(use);
+        images[use.file.string()] = {image.width, image.height, image.channels, image.texels};
     };
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { bump.texture; })
-                    add(bump.texture.file,
-                        bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+                if constexpr (requires { bump.texture; }) add(bump.texture);
             },
             layer.bump);
-        if (layer.mask.texture) add(layer.mask.texture->file, ImageUse::scalar);
+        if (layer.mask.texture) add({.file = layer.mask.texture->file});
     }
     return images;
 }
