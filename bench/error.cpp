@@ -14,9 +14,9 @@ namespace {
 /// Every texture a scene names, as the reference takes it.
 reference::Images reference_images(const Scene& scene) {
     reference::Images images;
-    for_each_texture(scene, [&](const std::filesystem::path& file, ImageUse use) {
-        const Image image = load_texture(file, use);
-        images[file.string()] = {image.width, image.height, image.channels, image.texels};
+    for_each_texture(scene, [&](const TextureUse& use) {
+        const Image image = load_bump(use);
+        images[use.file.string()] = {image.width, image.height, image.channels, image.texels};
     });
     return images;
 }

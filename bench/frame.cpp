@@ -96,16 +96,14 @@ BenchFrame Resampler::frame(Size size) const {
     return out;
 }
 
-void for_each_texture(const Scene& scene, const std::function<void(const std::filesystem::path&, ImageUse)>& use) {
+void for_each_texture(const Scene& scene, const std::function<void(const TextureUse&)>& visit) {
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { bump.texture; })
-                    use(bump.texture.file,
-                        bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+                if constexpr (requires { visit(bump.texture); }) visit(bump.texture);
             },
             layer.bump);
-        if (layer.mask.texture) use(layer.mask.texture->file, ImageUse::scalar);
+        if (layer.mask.texture) visit({.file = layer.mask.texture->file});
     }
 }
 

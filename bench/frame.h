@@ -44,8 +44,8 @@ private:
     std::map<std::string, std::vector<float>> planes_;
 };
 
-/// Calls `use` with every texture file of a scene and what it is read as.
-void for_each_texture(const Scene& scene, const std::function<void(const std::filesystem::path&, ImageUse)>& use);
+/// Calls `visit` with every texture of a scene.
+void for_each_texture(const Scene& scene, const std::function<void(const TextureUse&)>& visit);
 
 /// The scene as all contenders take it: no lighting, Cryptomatte names as hashes.
 Scene without_lighting(Scene scene, const Frame& frame);

@@ -41,9 +41,9 @@ struct Resident {
 
 std::map<std::filesystem::path, baseline::Image> baseline_images(const Scene& scene) {
     std::map<std::filesystem::path, baseline::Image> images;
-    for_each_texture(scene, [&](const std::filesystem::path& file, ImageUse use) {
-        Image image = load_texture(file, use);
-        images[file] = {image.width, image.height, image.channels, std::move(image.texels)};
+    for_each_texture(scene, [&](const TextureUse& use) {
+        Image image = load_bump(use);
+        images[use.file] = {image.width, image.height, image.channels, std::move(image.texels)};
     });
     return images;
 }

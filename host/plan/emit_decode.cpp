@@ -175,6 +175,32 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
     return text;
 }
 
+/// Sets vertex_tb and vertex_tb_valid from the planes of the renderer's tangents.
+std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
+    std::string text = "        vertex_tb_valid = valid;\n";
+    const auto load = [&](const std::string& plane, const std::string& name) {
+        section.inputs.insert(plane);
+        text += fmt::format(
+            "        floats {0} = wr_load_floats({1}, at.in);\n"
+            "        vertex_tb_valid = vertex_tb_valid & wr_finite({0});\n",
+            name, identifier(plane));
+    };
+    const bool sign = emitter.has("tangent_sign");
+    for (const char axis : {'x', 'y', 'z'}) load(fmt::format("tangent.{}", axis), fmt::format("t{}", axis));
+    if (sign) load("tangent_sign", "sign");
+    for (const char axis : {'x', 'y', 'z'})
+        if (!sign) load(fmt::format("bitangent.{}", axis), fmt::format("b{}", axis));
+    const auto vector = [](char name) {
+        return fmt::format("wr_select(vertex_tb_valid, wr_v3(wr_real({0}x), wr_real({0}y), wr_real({0}z)), wr_zero3())",
+                           name);
+    };
+    section.operations += 60;
+    return text + fmt::format(
+                      "        vertex_tb = wr_vertex_frame({},\n            {},\n            {});\n"
+                      "        marked += (valid & !vertex_tb_valid & (marked < 4)) ? (real)(4) : (real)(0);\n",
+                      vector('n'), vector('t'), sign ? "wr_real(sign)" : vector('b'));
+}
+
 }  // namespace
 
 std::string derivative_text(const Emitter& emitter) {
@@ -234,6 +260,10 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     if (wanted.contains("uv")) {
         text += emit_uv(emitter, geometry, section);
         section.writes.insert({"uv", "uv_valid"});
+    }
+    if (wanted.contains("vertex_tb")) {
+        text += emit_vertex_frame(emitter, section);
+        section.writes.insert({"vertex_tb", "vertex_tb_valid"});
     }
     return section;
 }

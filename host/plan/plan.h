@@ -48,7 +48,7 @@ struct Origin {
 };
 
 /// A texture as kernels sample it.
-enum class TexelKind { slope, height, mask };
+enum class TexelKind { slope, height, mask, vector };
 struct PlannedTexture {
     TextureUse use;
     TexelKind kind = TexelKind::slope;

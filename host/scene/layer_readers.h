@@ -21,6 +21,8 @@ void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
 /// One function a kind.
 void read_normal_map(Table& table, Layer& layer);
 void read_height_map(Table& table, Layer& layer);
+void read_object_normal(Table& table, Layer& layer);
+void read_derivative_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);

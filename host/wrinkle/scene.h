@@ -24,16 +24,22 @@ namespace wrinkle {
 
 // --- Textures ------------------------------------------------------------------------------------------------------
 
-enum class Content { height, normal };  ///< what the texels mean: height in [0,1] units of `scale`, or a tangent normal
-enum class Upscale { plain, smooth };   ///< [Mik20 listing 16] isUpscaleHQ false or true
+/// What the texels mean: heights in units of `scale`; tangent-space normals; slopes dh/du, dh/dv; normals in object or
+/// world space.
+enum class Content { height, normal, slope, object_normal };
+enum class Upscale { plain, smooth };  ///< [Mik20 listing 16] isUpscaleHQ false or true
 enum class Wrap { repeat, clamp };
+enum class Encoding { automatic, sign, unit };  ///< slopes as they are, or 2 texel - 1; automatic: by the file's format
+enum class SlopeUnit { texel, texture };        ///< what a slope of 1 rises over
 
 struct TextureUse {
     std::filesystem::path file{};
     Content content = Content::height;
     Upscale upscale = Upscale::smooth;
     Wrap wrap = Wrap::repeat;
-    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals only
+    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals and slopes
+    Encoding encoding = Encoding::automatic;  ///< slopes only
+    SlopeUnit unit = SlopeUnit::texel;        ///< slopes only
 };
 
 // --- Texture coordinates -------------------------------------------------------------------------------------------
@@ -66,11 +72,34 @@ struct Mask {
 
 // --- Layers --------------------------------------------------------------------------------------------------------
 
+/// Where tangent and bitangent come from: the G-buffer's planes, as the renderer interpolated them (mikkTSpace), or the
+/// derivatives of the texture coordinates; automatic takes the planes where they are there and fit the mapping.
+enum class TangentSource { automatic, derived, planes };
+
 /// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
 struct NormalMapLayer {
     static constexpr const char* kind = "normal_map";
     TextureUse texture{.content = Content::normal};
     UvMapping uv{};
+    TangentSource frame = TangentSource::automatic;
+};
+
+/// Normals in object or world space, as a bake of the whole surface gives them [Mik20 3.4].
+struct ObjectNormalLayer {
+    static constexpr const char* kind = "object_normal";
+    TextureUse texture{.content = Content::object_normal};
+    UvMapping uv{};
+    std::array<Vec3, 3> channels{
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< where red, green and blue point, in object space
+    std::array<Vec3, 3> object_to_world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows; may scale and mirror
+};
+
+/// Slopes of a height, scale dependent [Mikkelsen 2011, derivative maps].
+struct DerivativeMapLayer {
+    static constexpr const char* kind = "derivative_map";
+    TextureUse texture{.content = Content::slope};
+    UvMapping uv{};
+    bool auto_scale = false;  ///< a height of 1 is as much as the pixel's texel is wide, instead of a metre
 };
 
 /// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].
@@ -123,7 +152,8 @@ enum class Blend { add, subtract };
 struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
-    std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, ConstantLayer, ResolveLayer>
+    std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, ConstantLayer, ResolveLayer,
+                 ObjectNormalLayer, DerivativeMapLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

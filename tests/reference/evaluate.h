@@ -32,6 +32,8 @@ public:
             layers_.push_back({std::visit(make, layer.bump), sign * T(layer.scale),
                                SceneMask<T>(layer.mask, layer.footprint, frame_, textures)});
             uses_uv_ = uses_uv_ || reads_uv_plane(layer);
+            if (const auto* map = std::get_if<NormalMapLayer>(&layer.bump))
+                uses_vertex_ = uses_vertex_ || uses_vertex_frame(*map, frame_.has_vertex_frame());
         }
     }
 
@@ -54,10 +56,15 @@ public:
         out.base = out.last = frame_.derivative(i, here.position, here.normal);
         if (here.reflected) out.marked |= Marked::back_facing;
 
-        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, std::nullopt};
+        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false};
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};
             if (!s.uv) out.marked |= Marked::no_uv_derivative;
+        }
+        if (uses_vertex_) {
+            s.vertex_planes = true;
+            s.vertex = frame_.vertex_frame(i);
+            if (!s.vertex) out.marked |= Marked::no_uv_derivative;
         }
         Vec<T> surface, volume;
         const auto finish = [&] {
@@ -126,7 +133,7 @@ private:
     Scene scene_;
     Frame<T> frame_;
     std::vector<Entry> layers_;
-    bool uses_uv_ = false;
+    bool uses_uv_ = false, uses_vertex_ = false;
 };
 
 }  // namespace wrinkle::reference

@@ -10,6 +10,7 @@
 #include "tests/reference/camera_rays.h"
 #include "tests/reference/resolve.h"
 #include "tests/reference/uv_derivative.h"
+#include "tests/reference/vertex_frame.h"
 #include "wrinkle/gbuffer.h"
 #include "wrinkle/scene.h"
 
@@ -102,6 +103,25 @@ public:
         }
         if (!dx || !dy || !finite(*dx) || !finite(*dy) || !finite(uv(i))) return std::nullopt;
         return TexDerivative<T>{*dx, *dy};
+    }
+
+    bool has_vertex_frame() const { return has("tangent.z") && (has("tangent_sign") || has("bitangent.z")); }
+
+    /// The renderer's tangents; nothing where they are not finite.
+    std::optional<TangentFrame<T>> vertex_frame(std::size_t i) const {
+        const auto read = [&](const std::string& name) {
+            return Vec<T>{T(plane(name + ".x")[i]), T(plane(name + ".y")[i]), T(plane(name + ".z")[i])};
+        };
+        const Vec<T> n = raw_normal(i), tangent = read("tangent");
+        if (!finite(tangent)) return std::nullopt;
+        if (has("tangent_sign")) {
+            const T sign = plane("tangent_sign")[i];
+            if (!std::isfinite(sign)) return std::nullopt;
+            return reference::vertex_frame(n, tangent, sign);
+        }
+        const Vec<T> bitangent = read("bitangent");
+        if (!finite(bitangent)) return std::nullopt;
+        return TangentFrame<T>{tangent / length(n), bitangent / length(n), false};
     }
 
 private:

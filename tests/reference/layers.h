@@ -4,9 +4,12 @@
 
 #include "tests/reference/decal.h"
 #include "tests/reference/fractal.h"
+#include "tests/reference/normal_transform.h"
+#include "tests/reference/perturbed_normal.h"
 #include "tests/reference/scale_dependent.h"
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
+#include "tests/reference/texture_metres.h"
 #include "tests/reference/triplanar.h"
 
 namespace wrinkle::reference {
@@ -22,11 +25,25 @@ struct Contribution {
 template <class T>
 using LayerFunction = std::function<Contribution<T>(const Surfel<T>&)>;
 
+/// Whether a layer goes by the renderer's tangents.
+inline bool uses_vertex_frame(const NormalMapLayer& layer, bool planes) {
+    const bool fits = layer.uv.source == UvSource::aov && layer.uv.rotation == 0;
+    return planes && fits && layer.frame != TangentSource::derived;
+}
+
 template <class T>
 LayerFunction<T> make_layer(const NormalMapLayer& layer, bool footprint, SceneTextures<T>& textures) {
     return [=, texture = textures.slopes(layer.texture, Content::normal)](const Surfel<T>& s) -> Contribution<T> {
         const auto at = map_coordinates(layer.uv, s);
         if (!at) return {{}, {}, false};
+        if (uses_vertex_frame(layer, s.vertex_planes)) {
+            if (!s.vertex) return {{}, {}, false};
+            const Vec2<T> d = texture.slope(*at, footprint);
+            const auto mirror = [](double scale) { return scale < 0 ? T(-1) : T(1); };
+            return {surface_gradient_from_tbn({d.x * mirror(layer.uv.scale[0]), d.y * mirror(layer.uv.scale[1])},
+                                              s.vertex->tangent, s.vertex->bitangent),
+                    {}};
+        }
         const TangentFrame<T> frame = tangent_frame(s.normal, s.d.dp_dx, s.d.dp_dy, at->d);
         if (frame.degenerate) return {};
         return {surface_gradient_from_tbn(texture.slope(*at, footprint), frame.tangent, frame.bitangent), {}};
@@ -91,6 +108,35 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
 template <class T>
 LayerFunction<T> make_layer(const ConstantLayer& layer, bool, SceneTextures<T>&) {
     return [g = from_array<T>(layer.gradient)](const Surfel<T>&) -> Contribution<T> { return {{}, g}; };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const ObjectNormalLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    const auto channel = [&](int k) { return from_array<T>(layer.channels[k]); };
+    return [=, texture = textures.slopes(layer.texture, Content::object_normal), red = channel(0), green = channel(1),
+            blue = channel(2)](const Surfel<T>& s) -> Contribution<T> {
+        const auto at = map_coordinates(layer.uv, s);
+        if (!at) return {{}, {}, false};
+        const Vec<T> texel = texture.vector(*at, footprint);
+        const Vec<T> v = transform_normal(layer.object_to_world, red * texel.x + green * texel.y + blue * texel.z);
+        if (is_zero(v)) return {};
+        return {surface_gradient_from_normal(s.normal, v), {}};
+    };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const DerivativeMapLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    return [=, texture = textures.slopes(layer.texture, Content::slope)](const Surfel<T>& s) -> Contribution<T> {
+        const auto at = map_coordinates(layer.uv, s);
+        if (!at) return {{}, {}, false};
+        Vec2<T> dh_dst = texture.slope(*at, footprint);
+        if (layer.auto_scale) {
+            const Level<T>& top = texture.pyramid->levels.front();
+            const T texels = layer.texture.unit == SlopeUnit::texel ? std::sqrt(T(top.width) * top.height) : T(1);
+            dh_dst = dh_dst * (texture_metres(s.d.dp_dx, s.d.dp_dy, at->d) / texels);
+        }
+        return {surface_gradient_scale_dependent(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, dh_dst), {}};
+    };
 }
 
 template <class T>

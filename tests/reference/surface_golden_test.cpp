@@ -9,6 +9,7 @@
 #include "tests/reference/tangent_frame.h"
 #include "tests/reference/tangent_normal.h"
 #include "tests/reference/tbn.h"
+#include "tests/reference/vertex_frame.h"
 #include "tests/reference/volume_gradient.h"
 
 namespace wrinkle::reference {
@@ -86,6 +87,21 @@ TEST(Golden, ScaleDependent) {
         expect_vec(table, i, surface_gradient_scale_dependent(n, dp_dx, dp_dy, st_derivative(table, i), per_unit),
                    "want_sg");
         expect_vec(table, i, surface_gradient_from_screen_slope(n, dp_dx, dp_dy, d), "want_sgScr");
+    }
+}
+
+TEST(Golden, Prologue) {
+    const GoldenTable table = golden("listing09_prologue");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const Vec<real> n = table.vec(i, "In_n"), dp_dx = table.vec(i, "dPdx"), dp_dy = table.vec(i, "dPdy");
+        const auto frame = vertex_frame(n, table.vec(i, "In_t"), real{table.number(i, "In_t.w")});
+        expect_vec(table, i, frame.tangent, "want_mT");
+        expect_vec(table, i, frame.bitangent, "want_mB");
+        const Vec<real> base = normalize(n) * (table.number(i, "isFlip") != 0 ? real(-1) : real(1));
+        expect_vec(table, i, base, "want_n");
+        expect_vec(table, i, tangent_part(dp_dx, base), "want_sX");
+        expect_vec(table, i, tangent_part(dp_dy, base), "want_sY");
+        EXPECT_EQ(flip_sign(base, dp_dx, dp_dy), table.number(i, "want_flip_sign")) << table.label(i);
     }
 }
 

@@ -93,17 +93,17 @@ inline Scene data_scene(const std::string& name) {
 /// Every texture that a scene names.
 inline reference::Images images_of(const Scene& scene) {
     reference::Images images;
-    const auto add = [&](const fs::path& file, Content content) {
-        Image image = load_texture(file, content == Content::normal ? ImageUse::normal : ImageUse::scalar);
-        images[file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
+    const auto add = [&](const TextureUse& use) {
+        Image image = load_bump(use);
+        images[use.file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
     };
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { bump.texture; }) add(bump.texture.file, bump.texture.content);
+                if constexpr (requires { bump.texture; }) add(bump.texture);
             },
             layer.bump);
-        if (layer.mask.texture) add(layer.mask.texture->file, Content::height);
+        if (layer.mask.texture) add({.file = layer.mask.texture->file});
     }
     return images;
 }

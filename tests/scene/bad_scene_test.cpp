@@ -132,11 +132,38 @@ TEST_F(BadScene, AxesThatSpanNoPlane) {
                         {"\"axis_v\"", "parallel"});
 }
 
+TEST_F(BadScene, ObjectNormals) {
+    const auto object_normal = [](const std::string& rest) {
+        return layer("kind = \"object_normal\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    for (const char* text : {"x y", "x y z w", "x y x", "x y w", "xyz", "x y --z", "x y +"})
+        expect_problem_with(object_normal("channels = \"" + std::string(text) + "\"\n"), 8,
+                            {"\"channels\"", "must name each axis once, as \"x -z y\" does"});
+    expect_problem_with(object_normal("object_to_world = [[1, 0, 0], [0, 1, 0]]\n"), 8,
+                        {"must be a 3x3 matrix, [[..], [..], [..]] with 3 numbers a row"});
+    expect_problem_with(object_normal("object_to_world = [[1, 0, 0], [0, 1, 0], [1, 1, 0]]\n"), 8,
+                        {"\"object_to_world\"", "must not flatten the object"});
+    expect_problem_with(object_normal("space = \"world\"\nobject_to_world = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"), 9,
+                        {"\"object_to_world\"", "space", "object"});
+}
+
+TEST_F(BadScene, FramesOfNormalMaps) {
+    const auto normal_map = [](const std::string& rest) {
+        return layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    expect_problem_with(normal_map("frame = \"tangent\"\n"), 8,
+                        {"did you mean \"tangents\"?", "\"auto\", \"derived\", \"tangents\""});
+    expect_problem_with(normal_map("frame = \"tangents\"\nuv = { rotation = 90 }\n"), 8,
+                        {"\"frame\"", "belongs to the UV pass as it is: uv must not be planar or turn"});
+    expect_problem_with(normal_map("frame = \"tangents\"\nuv = { source = \"planar\" }\n"), 8,
+                        {"\"frame\"", "UV pass"});
+}
+
 TEST_F(BadScene, MissingKeys) {
     EXPECT_EQ(problems("[camera]\nfrom = \"exr\"\n"),
               std::vector<std::string>{"courtyard.toml: needs [gbuffer], at least file = \"frame.exr\""});
     expect_problem("[gbuffer]\n[camera]\nfrom = \"exr\"\n", 1, {"[gbuffer] needs the key \"file\""});
-    for (const char* kind : {"normal_map", "height_map", "triplanar"})
+    for (const char* kind : {"normal_map", "height_map", "triplanar", "object_normal", "derivative_map"})
         expect_problem_with(layer("kind = \"" + std::string(kind) + "\"\n"), 5, {kind, "needs the key \"texture\""});
     expect_problem_with(layer("kind = \"decal\"\ntexture = \"textures/wall.png\"\n"), 5, {"needs the key \"center\""});
     expect_problem_with(layer("kind = \"constant\"\n"), 5, {"needs the key \"gradient\""});

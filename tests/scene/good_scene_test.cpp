@@ -102,6 +102,55 @@ TEST_F(GoodScene, OtherLayers) {
     EXPECT_EQ(std::get<ConstantLayer>(scene.layers[6].bump).gradient, (Vec3{0.1, 0, -0.2}));
 }
 
+TEST_F(GoodScene, ObjectNormals) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "object_normal"
+texture = "textures/wall.png"
+channels = "+x -z y"
+object_to_world = [[0, 2, 0], [-1, 0, 0], [0, 0, 1]]
+wrap = "clamp"
+[[layer]]
+kind = "object_normal"
+texture = "textures/wall.png"
+space = "world"
+)");
+    const auto& rope = std::get<ObjectNormalLayer>(scene.layers.at(0).bump);
+    EXPECT_EQ(rope.texture.content, Content::object_normal);
+    EXPECT_EQ(rope.texture.wrap, Wrap::clamp);
+    EXPECT_EQ(rope.channels, (std::array<Vec3, 3>{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}));
+    EXPECT_EQ(rope.object_to_world[0], (Vec3{0, 2, 0}));
+    EXPECT_EQ(rope.object_to_world[1], (Vec3{-1, 0, 0}));
+    EXPECT_EQ(std::get<ObjectNormalLayer>(scene.layers.at(1).bump).object_to_world[2], (Vec3{0, 0, 1}));
+}
+
+TEST_F(GoodScene, DerivativeMaps) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "derivative_map"
+texture = "textures/wall.png"
+y = "-"
+encoding = "signed"
+slopes = "texture"
+bump_scale = "auto"
+[[layer]]
+kind = "derivative_map"
+texture = "textures/wall.png"
+[[layer]]
+kind = "normal_map"
+texture = "textures/wall.png"
+frame = "tangents"
+)");
+    const auto& slopes = std::get<DerivativeMapLayer>(scene.layers.at(0).bump);
+    EXPECT_EQ(slopes.texture.content, Content::slope);
+    EXPECT_TRUE(slopes.texture.y_down && slopes.auto_scale);
+    EXPECT_EQ(slopes.texture.encoding, Encoding::sign);
+    EXPECT_EQ(slopes.texture.unit, SlopeUnit::texture);
+    const auto& plain = std::get<DerivativeMapLayer>(scene.layers.at(1).bump);
+    EXPECT_FALSE(plain.texture.y_down || plain.auto_scale);
+    EXPECT_EQ(plain.texture.encoding, Encoding::automatic);
+    EXPECT_EQ(plain.texture.unit, SlopeUnit::texel);
+    EXPECT_EQ(std::get<NormalMapLayer>(scene.layers.at(2).bump).frame, TangentSource::planes);
+}
+
 TEST_F(GoodScene, LightingAndOutput) {
     const Scene scene = load(full_scene);
     const Lighting& lighting = scene.lighting;
