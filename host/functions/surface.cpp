@@ -22,7 +22,12 @@ std::vector<Function> surface_functions() {
          .variants = {{standard,
                        "vec3 d = wr_ray(frame, x, y);\n"
                        "wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), x, y, &dp_dx, &dp_dy);",
-                       {1e-6, 1e-5, 1e-6, 1e-5}}},
+                       {1e-6, 1e-5, 1e-6, 1e-5}},
+                      {exact,
+                       "real r = wr_along_ray(p, wr_ray(frame, x, y));\n"
+                       "wr_screen_derivatives_exact(frame, n, r, x, y, &dp_dx, &dp_dy);",
+                       {1e-6, 3e-5, 1e-6, 3e-5},
+                       true}},
          .note = "A pinhole camera. Relative errors grow as 1 / |cos(n, ray)|, directions as 1 / sin(n, image axis x "
                  "ray): near a horizon."},
         {.name = "screen_derivatives_general",
@@ -34,7 +39,11 @@ std::vector<Function> surface_functions() {
          .results = {result(dp_dx, {relative, degrees}), result(dp_dy, {relative, degrees})},
          .variants = {{standard,
                        "wr_screen_derivatives_general(frame, n, p, x, y, &dp_dx, &dp_dy);",
-                       {1e-6, 1e-5, 1e-6, 1e-5}}},
+                       {1e-6, 1e-5, 1e-6, 1e-5}},
+                      {exact,
+                       "wr_screen_derivatives_general_exact(frame, n, p, x, y, &dp_dx, &dp_dy);",
+                       {1e-6, 3e-5, 1e-6, 3e-5},
+                       true}},
          .note = "Relative errors grow as 1 / |cos(n, ray)|, directions as 1 / sin(n, image axis x ray)."},
         {.name = "texture_step",
          .file = "surface/texcoord_derivative.clh",

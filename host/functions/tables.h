@@ -20,6 +20,9 @@ struct SettingSize {
 };
 SettingSize size_of(const Setting& setting);
 
+/// "3 numbers"
+const char* wanted_text(Setting::Kind kind);
+
 /// The numbers and textures of the settings. Throws Error for one that is missing, unknown, or of another kind.
 ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values);
 

@@ -75,6 +75,7 @@ struct FunctionVariant {
     Precision precision = Precision::standard;
     std::string text;                ///< kernel text: parameters and settings by name are read, results by name are set
     std::vector<double> max_errors;  ///< documented, of each measure of each result, in their order
+    bool everywhere = false;         ///< they hold even where `note` allows more
 };
 
 struct Function {

@@ -31,7 +31,8 @@ TEST_P(EveryFunction, KeepsItsDocumentedError) {
             for (const ErrorMeasure measure : result.measures) {
                 const double error = variant.max_errors.at(bound++);
                 std::vector<std::string> outputs = result.columns();
-                answers.push_back({result.name, outputs, measure, error, error, function.fp64_error});
+                answers.push_back(
+                    {result.name, outputs, measure, error, error, function.fp64_error, variant.everywhere});
             }
         ASSERT_EQ(bound, variant.max_errors.size());
         Checker(cases, answers, [&](bool fp64) { return cases::kernel_of(function, variant, fp64).body; }).run();
