@@ -8,6 +8,7 @@ namespace wrinkle {
 
 std::vector<Function> surface_functions();
 std::vector<Function> source_functions();
+std::vector<Function> noise_functions();
 std::vector<Function> compose_functions();
 
 /// The kernel that computes every result, and its outputs in the order of the results' columns.
