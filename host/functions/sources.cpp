@@ -9,7 +9,6 @@ using enum Precision;
 std::vector<Function> source_functions() {
     const Parameter st = pair("st", "1", "texture coordinates, t up"), lod = number("lod", "1", "mip level");
     const Result texel_slope = result(pair("slope", "heights per texel", "dh/ds, dh/dt"), {absolute});
-    const Parameter lattice_point = vector("p", "lattice cells", "point, up to 2^22 cells from the origin");
     return {
         {.name = "tangent_normal_slope",
          .file = "sources/normal_map.clh",
@@ -90,16 +89,6 @@ std::vector<Function> source_functions() {
                         pair("slope_z", "1", "dh/dx, dh/dy, sampled with (x, y)")},
          .results = {result(vector("dh_dp", "1, world", "volume gradient"), {relative})},
          .variants = {{standard, "dh_dp = wr_triplanar_gradient(w, slope_x, slope_y, slope_z);", {3e-7}}}},
-        {.name = "perlin_noise",
-         .file = "sources/noise.clh",
-         .summary = "Perlin's improved noise and its exact gradient; period 256",
-         .source = "Perlin 2002",
-         .parameters = {lattice_point},
-         .results = {result(number("value", "1", "noise, within +-1.04"), {absolute}),
-                     result(vector("gradient", "per cell", "its gradient"), {absolute})},
-         .variants = {{standard,
-                       "wr_noise_value v = wr_perlin_noise(p);\nvalue = v.value, gradient = v.gradient;",
-                       {1e-6, 3e-6}}}},
     };
 }
 

@@ -8,6 +8,7 @@ namespace wrinkle {
 
 std::vector<Function> surface_functions();
 std::vector<Function> source_functions();
+std::vector<Function> noise_functions();
 std::vector<Function> compose_functions();
 std::vector<Function> prologue_functions();
 

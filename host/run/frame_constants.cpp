@@ -129,7 +129,7 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
     for (const Origin& origin : plan.origins) {
         for (std::size_t k = 0; k < 3; ++k) {
             double value = dot(origin.axes[k], eye) + origin.offset[k];
-            if (origin.period > 0) value -= origin.period * std::floor(value / origin.period);
+            if (const double period = origin.period[k]; period > 0) value -= period * std::floor(value / period);
             out.origins.push_back(value);
         }
         out.origins.push_back(origin.fourth);

@@ -4,6 +4,8 @@
 
 #include "tests/reference/decal.h"
 #include "tests/reference/fractal.h"
+#include "tests/reference/noise_means.h"
+#include "tests/reference/noise_shape.h"
 #include "tests/reference/normal_transform.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/scale_dependent.h"
@@ -76,10 +78,18 @@ LayerFunction<T> make_layer(const TriplanarLayer& layer, bool footprint, SceneTe
 
 template <class T>
 LayerFunction<T> make_layer(const NoiseLayer& layer, bool footprint, SceneTextures<T>&) {
-    const Fractal<T> fractal{T(layer.frequency), layer.octaves, T(layer.lacunarity), T(layer.gain)};
-    return [=](const Surfel<T>& s) -> Contribution<T> {
+    const Fractal<T> f{
+        T(layer.frequency), layer.octaves,    T(layer.lacunarity), T(layer.gain), static_cast<Octaves>(layer.fractal),
+        T(layer.offset),    T(layer.feedback)};
+    return [=, noise = octave_noise<T>(layer), means = noise_means<T>(layer),
+            shape = layer.shape](const Surfel<T>& s) -> Contribution<T> {
         const T longest = footprint ? std::max(length(s.d.dp_dx), length(s.d.dp_dy)) : T(0);
-        return {{}, fractal_sum(fractal, s.position, longest).gradient};
+        NoiseValue<T> n = fractal<T>(f, noise, means, s.position, longest);
+        if (shape.remap) n = shape_remap(n, T((*shape.remap)[0]), T((*shape.remap)[1]));
+        if (shape.power) n = shape_power(n, T(*shape.power));
+        if (shape.smoothstep) n = shape_smoothstep(n, T((*shape.smoothstep)[0]), T((*shape.smoothstep)[1]));
+        if (shape.bias) n = shape_bias(n, T(*shape.bias));
+        return {{}, n.gradient};
     };
 }
 

@@ -57,6 +57,22 @@ TEST_F(BadScene, UnknownKeys) {
     expect_problem_with("\"a\\nb\" = 1\n", 5, {"unknown key \"a\\x0ab\""});
 }
 
+TEST_F(BadScene, NoiseOptionsThatMakeNoSense) {
+    expect_problem_with(noise("feature = \"f2\"\n"), 7, {"\"feature\"", "only with type = \"worley\""});
+    expect_problem_with(noise("rotation = 4\n"), 7, {"\"rotation\"", "only with type = \"simplex\""});
+    expect_problem_with(noise("type = \"worley\"\nperiod = [1, 1, 1]\n"), 8, {"only with type = \"simplex\""});
+    expect_problem_with(noise("feedback = 1\n"), 7, {"\"feedback\"", "only with fractal = \"ridged\""});
+    expect_problem_with(noise("type = \"worley\"\nfractal = \"ridged\"\n"), 8, {"\"fractal\"", "use \"sum\""});
+    expect_problem_with(noise("type = \"simplex\"\nperiod = [1, 2.5, 0]\n"), 8, {"\"period\"", "whole numbers"});
+    expect_problem_with(noise("type = \"simplex\"\noctaves = 2\nlacunarity = 2.5\nperiod = [4, 4, 4]\n"), 10,
+                        {"\"period\"", "whole lacunarity; it is 2.5"});
+    expect_problem_with(noise("type = \"simplex\"\noctaves = 16\nperiod = [99, 0, 0]\n"), 9, {"\"period\"", "at most"});
+    expect_problem_with(noise("shape = { power = 0.5 }\n"), 7, {"\"power\"", "shape of [[layer]]"});
+    expect_problem_with(noise("shape = { bias = 1 }\n"), 7, {"\"bias\""});
+    expect_problem_with(noise("shape = { remap = [2, 2] }\n"), 7, {"\"remap\"", "the smaller number first"});
+    expect_problem_with(noise("shape = { power = 2, bias = 0.5 }\n"), 7, {"more than one", "choose one"});
+}
+
 TEST_F(BadScene, KeysOfAnotherKind) {
     expect_problem_with(decal("octaves = 3\n"), 9,
                         {"\"octaves\" in [[layer]] \"decal 1\" does not belong to kind \"decal\" but to \"noise\"",

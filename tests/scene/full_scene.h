@@ -59,6 +59,10 @@ frequency = 3.5
 octaves = 16
 lacunarity = 2.25
 gain = 0.25
+type = "worley"
+feature = "f2-f1"
+gradient = "central"
+shape = { remap = [-1, 2], bias = 0.75 }
 
 [[layer]]
 kind = "resolve"

@@ -89,6 +89,12 @@ TEST_F(GoodScene, OtherLayers) {
     EXPECT_EQ(noise.octaves, 16);
     EXPECT_EQ(noise.lacunarity, 2.25);
     EXPECT_EQ(noise.gain, 0.25);
+    EXPECT_EQ(noise.type, NoiseType::worley);
+    EXPECT_EQ(noise.feature, CellFeature::f2_f1);
+    EXPECT_EQ(noise.gradient, NoiseGradient::central);
+    EXPECT_EQ(noise.shape.remap, (std::array<double, 2>{-1, 2}));
+    EXPECT_EQ(noise.shape.bias, 0.75);
+    EXPECT_FALSE(noise.shape.power || noise.shape.smoothstep);
     EXPECT_TRUE(std::holds_alternative<ResolveLayer>(scene.layers[4].bump));
     const auto& decal = std::get<DecalLayer>(scene.layers[5].bump);
     EXPECT_EQ(decal.texture.wrap, Wrap::clamp);
@@ -149,6 +155,20 @@ frame = "tangents"
     EXPECT_EQ(plain.texture.encoding, Encoding::automatic);
     EXPECT_EQ(plain.texture.unit, SlopeUnit::texel);
     EXPECT_EQ(std::get<NormalMapLayer>(scene.layers.at(2).bump).frame, TangentSource::planes);
+}
+
+TEST_F(GoodScene, FractalsOfSimplexNoise) {
+    const Scene scene = load_with(
+        "[[layer]]\nkind = \"noise\"\ntype = \"simplex\"\nperiod = [4, 0, 8]\nrotation = 90\noctaves = 3\n"
+        "fractal = \"ridged\"\noffset = 0.9\nfeedback = 3\nshape = { power = 2.5 }\n");
+    const auto& noise = std::get<NoiseLayer>(scene.layers.at(0).bump);
+    EXPECT_EQ(noise.type, NoiseType::simplex);
+    EXPECT_EQ(noise.period, (std::array<double, 3>{4, 0, 8}));
+    EXPECT_NEAR(noise.rotation, 90 * degree, 1e-15);
+    EXPECT_EQ(noise.fractal, FractalKind::ridged);
+    EXPECT_EQ(noise.offset, 0.9);
+    EXPECT_EQ(noise.feedback, 3);
+    EXPECT_EQ(noise.shape.power, 2.5);
 }
 
 TEST_F(GoodScene, LightingAndOutput) {
