@@ -141,3 +141,17 @@ with tempfile.TemporaryDirectory() as place:
     file.open(f"{folder}/ripples_bumpslopes.exr", spec)
     file.write_image(made.get_pixels(oiio.FLOAT))
     file.close()
+# Swells: three waves a side at most, 21 texels the shortest, so that no way of sampling them shows.
+save("swell_height", unit(rough(64, 51, 0.7, 1, 3)), "uint16")
+
+# Half balls: as heights of few texels, to be magnified, and as normals, whose slopes reach the steepest there are.
+def ball(size, radius):
+    x, y = np.meshgrid((np.arange(size) + 0.5) / size * 2 - 1, 1 - (np.arange(size) + 0.5) / size * 2, indexing="xy")
+    return x / radius, y / radius, np.sqrt(np.clip(1 - (x * x + y * y) / radius**2, 0, 1))
+
+
+save("ball_height", ball(32, 0.8)[2], "uint16")
+bx, by, bz = ball(128, 0.9)
+inside = bx * bx + by * by < 1
+save("ball_normal", np.stack([np.where(inside, bx, 0), np.where(inside, by, 0), np.where(inside, bz, 1)], -1) / 2 + 0.5,
+     "uint8")

@@ -65,11 +65,11 @@ inline Camera orthonormal(Camera camera) {
     return camera;
 }
 
-/// data/gbuffer/small.exr, every channel of it.
-inline HostFrame small_frame() {
-    const GBufferReader reader(data_folder / "gbuffer/small.exr");
+/// A frame of data/gbuffer, every channel of it.
+inline HostFrame data_frame(const std::string& name) {
+    const GBufferReader reader(data_folder / "gbuffer" / (name + ".exr"));
     CameraSource source;
-    source.file = data_folder / "gbuffer/small.camera.json";
+    source.file = data_folder / "gbuffer" / (name + ".camera.json");
     HostFrame out;
     out.frame.size = reader.size();
     out.frame.camera = orthonormal(read_camera(source, reader));
@@ -82,6 +82,8 @@ inline HostFrame small_frame() {
     reader.read_rows(0, out.frame.size.height, names, into);
     return out;
 }
+
+inline HostFrame small_frame() { return data_frame("small"); }
 
 /// A scene of data/scenes, with `marked` written as well.
 inline Scene data_scene(const std::string& name) {
