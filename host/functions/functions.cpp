@@ -80,7 +80,7 @@ const FunctionVariant& Function::variant(Precision wanted) const {
 const std::vector<Function>& functions() {
     static const std::vector<Function> all = [] {
         std::vector<Function> table;
-        for (auto part : {surface_functions, source_functions, compose_functions})
+        for (auto part : {surface_functions, source_functions, compose_functions, displacement_functions})
             for (Function& function : part()) table.push_back(std::move(function));
         return table;
     }();

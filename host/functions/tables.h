@@ -9,6 +9,7 @@ namespace wrinkle {
 std::vector<Function> surface_functions();
 std::vector<Function> source_functions();
 std::vector<Function> compose_functions();
+std::vector<Function> displacement_functions();
 
 /// The kernel that computes every result, and its outputs in the order of the results' columns.
 ColumnKernel column_kernel(const Function& function, const FunctionVariant& variant);

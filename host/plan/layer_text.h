@@ -16,6 +16,8 @@ struct LayerText {
     std::string strength() const;
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
+    /// Declares coordinates `c` and texture `t`.
+    std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
     /// Declares coordinates `c`, texture `t` and its `slope`, for a source that samples one texture over a UV mapping.
     std::string textured(const TextureUse& use, const UvMapping& uv);
     /// Adds a volume gradient.
@@ -35,6 +37,7 @@ std::string emit(LayerText& at, const HeightMapLayer& l);
 std::string emit(LayerText& at, const TriplanarLayer& l);
 std::string emit(LayerText& at, const NoiseLayer& l);
 std::string emit(LayerText& at, const ConstantLayer& l);
+std::string emit(LayerText& at, const ParallaxLayer& l);
 
 /// Decals that may share a loop: same mask, same way to sample.
 bool same_loop(const Layer& a, const Layer& b);

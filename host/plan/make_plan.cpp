@@ -45,6 +45,8 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     std::set<std::string> first = stages.front().reads;
     for (const Stage& stage : stages)  // texture coordinates are decoded once, for all stages; they need derivatives
         if (stage.reads.contains("uv")) first.insert({"uv", "dp_dx"});
+    for (const Stage& stage : stages)  // and so is how the base normal turns
+        if (stage.reads.contains("dn_dx")) first.insert({"dn_dx", "dp_dx"});
     const Output& output = emitter.scene.output;
     if (output.dp_dx || output.dp_dy) first.insert("dp_dx");
     const bool relight = emitter.scene.lighting.relight != Relight::off;

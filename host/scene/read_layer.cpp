@@ -21,7 +21,7 @@ constexpr Kind<Layer> kinds[] = {
     {NormalMapLayer::kind, read_normal_map}, {HeightMapLayer::kind, read_height_map},
     {TriplanarLayer::kind, read_triplanar},  {NoiseLayer::kind, read_noise},
     {DecalLayer::kind, read_decal},          {ConstantLayer::kind, read_constant},
-    {ResolveLayer::kind, read_resolve},
+    {ParallaxLayer::kind, read_parallax},    {ResolveLayer::kind, read_resolve},
 };
 
 }  // namespace
