@@ -16,7 +16,8 @@ TEXTURES = ("0", "2", "3")
 FACES = 40
 TABLES = """listing01_resolve listing02_tspace_to_deriv listing03_surfgrad_tbn listing04_genbasis_tb
             listing05_perturbed_normal listing06_scale_dependent listing08_volume_gradient listing09_prologue
-            listing10_screenderiv_noddxy listing13_triplanar listing14_triplanar_weights listing15_decal
+            listing10_screenderiv_noddxy listing11_project_vec_to_tex listing12_tex_offs_to_surface
+            listing13_triplanar listing14_triplanar_weights listing15_decal
             listing16_deriv_from_heightmap listing16_textures perlin2002_demo_dnoise perlin2002_java_reference
             mikktspace_torus_degenerate_tris mikktspace_torus_mirrored_uv_tris mikktspace_torus_quads
             psrdnoise3_glsl""".split()

@@ -85,7 +85,8 @@ const FunctionVariant& Function::variant(Precision wanted) const {
 const std::vector<Function>& functions() {
     static const std::vector<Function> all = [] {
         std::vector<Function> table;
-        for (auto part : {surface_functions, source_functions, noise_functions, compose_functions, prologue_functions})
+        for (auto part : {surface_functions, source_functions, noise_functions, compose_functions, prologue_functions,
+                          displacement_functions})
             for (Function& function : part()) table.push_back(std::move(function));
         return table;
     }();

@@ -11,6 +11,7 @@ std::vector<Function> source_functions();
 std::vector<Function> noise_functions();
 std::vector<Function> compose_functions();
 std::vector<Function> prologue_functions();
+std::vector<Function> displacement_functions();
 
 /// The kernel that computes every result, and its outputs in the order of the results' columns.
 ColumnKernel column_kernel(const Function& function, const FunctionVariant& variant);

@@ -29,13 +29,17 @@ std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
     return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(real)(0)";
 }
 
-std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, const char* declared) {
+std::string LayerText::located(const TextureUse& use, TexelKind kind, const UvMapping& uv) {
     std::string text = emit_texcoord(emitter, uv, use.wrap, who, section);
     if (uv.source == UvSource::aov) text += "        m = uv_valid ? m : (real)(0);\n";
-    text += fmt::format(
-        "        wr_texture t = wr_texture_at(texels, textures, {});\n"
-        "        {} = {}(t, c.st, {});\n",
-        emitter.texture(use, texel_kind(use)), declared, sample_function(use), lod("c.dx", "c.dy"));
+    return text +
+           fmt::format("        wr_texture t = wr_texture_at(texels, textures, {});\n", emitter.texture(use, kind));
+}
+
+std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, const char* declared) {
+    const std::string text =
+        located(use, texel_kind(use), uv) +
+        fmt::format("        {} = {}(t, c.st, {});\n", declared, sample_function(use), lod("c.dx", "c.dy"));
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");
     section.operations += sample_cost(use);

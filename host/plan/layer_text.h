@@ -18,6 +18,8 @@ struct LayerText {
     std::string lod(const std::string& dx, const std::string& dy) const;
     /// Declares coordinates `c`, texture `t` and its sample, for a source that samples one texture over a UV mapping.
     std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "vec2 slope");
+    /// Declares coordinates `c` and texture `t`.
+    std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
     /// Adds a volume gradient.
     std::string volume(const std::string& gradient);
 };
@@ -37,6 +39,7 @@ std::string emit(LayerText& at, const NoiseLayer& l);
 std::string emit(LayerText& at, const ConstantLayer& l);
 std::string emit(LayerText& at, const ObjectNormalLayer& l);
 std::string emit(LayerText& at, const DerivativeMapLayer& l);
+std::string emit(LayerText& at, const ParallaxLayer& l);
 
 /// Decals that may share a loop: same mask, same way to sample.
 bool same_loop(const Layer& a, const Layer& b);

@@ -46,6 +46,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     for (const Stage& stage : stages) {  // decoded once, for all stages; texture coordinates need derivatives
         if (stage.reads.contains("uv")) first.insert({"uv", "dp_dx"});
         if (stage.reads.contains("vertex_tb")) first.insert("vertex_tb");
+        if (stage.reads.contains("dn_dx")) first.insert({"dn_dx", "dp_dx"});
     }
     const Output& output = emitter.scene.output;
     if (output.dp_dx || output.dp_dy) first.insert("dp_dx");

@@ -18,6 +18,8 @@ const std::vector<Value>& values() {
         {"base", "vec3", {".x", ".y", ".z"}},
         {"dp_dx", "vec3", {".x", ".y", ".z"}},
         {"dp_dy", "vec3", {".x", ".y", ".z"}},
+        {"dn_dx", "vec3", {".x", ".y", ".z"}},
+        {"dn_dy", "vec3", {".x", ".y", ".z"}},
         {"uv", "wr_texcoord", {".st.x", ".st.y", ".dx.x", ".dx.y", ".dy.x", ".dy.y"}},
         {"uv_valid", "mask", {""}},
         {"vertex_tb", "wr_frame_tb", {".t.x", ".t.y", ".t.z", ".b.x", ".b.y", ".b.z"}},

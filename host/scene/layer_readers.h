@@ -5,6 +5,8 @@
 /// What the readers of the layer kinds share.
 namespace wrinkle::scene {
 
+/// footprint, mask
+void read_place(Table& table, Layer& layer);
 /// scale, blend, footprint, mask
 void read_weight(Table& table, Layer& layer);
 /// texture
@@ -26,5 +28,6 @@ void read_derivative_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);
+void read_parallax(Table& table, Layer& layer);
 
 }  // namespace wrinkle::scene

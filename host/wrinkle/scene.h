@@ -163,6 +163,20 @@ struct ConstantLayer {
     Vec3 gradient{};
 };
 
+enum class ParallaxMode { offset, march };  ///< one step [Welsh 2004], or a search for where the ray meets the heights
+
+/// Moves the point that later layers see along the ray, to a height field over the surface [Mik20 4.3]. It bumps
+/// nothing itself. `scale` is the depth: metres for a height of 1.
+struct ParallaxLayer {
+    static constexpr const char* kind = "parallax";
+    TextureUse texture{};
+    UvMapping uv{};
+    ParallaxMode mode = ParallaxMode::march;
+    int steps = 32, refine = 3;  ///< of the march
+    double level = 0;            ///< the height that lies on the surface: 0 raises, 1 carves
+    bool curved = false;         ///< move the normal as well, by those of the neighbours
+};
+
 /// Normalise here and start a new stage on the resolved normal [Mik20 4.6].
 struct ResolveLayer {
     static constexpr const char* kind = "resolve";
@@ -174,7 +188,7 @@ struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
     std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, ConstantLayer, ResolveLayer,
-                 ObjectNormalLayer, DerivativeMapLayer>
+                 ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

@@ -1,8 +1,10 @@
 #include "tests/cases/registry.h"
 
+#include "tests/cases/displacement.h"
 #include "tests/cases/fractal.h"
 #include "tests/cases/height_map.h"
 #include "tests/cases/noise.h"
+#include "tests/cases/parallax.h"
 #include "tests/cases/perturbed_normal.h"
 #include "tests/cases/prologue.h"
 #include "tests/cases/resolve.h"
@@ -24,17 +26,22 @@ constexpr real difference_margin = 1e-2L;  // several steps of a difference
 
 const std::map<std::string, Cases (*)()>& registry() {
     static const std::map<std::string, Cases (*)()> all{
+        {"displace", displace_cases},
+        {"displace_curved", displace_curved_cases},
         {"facing_normal", facing_cases},
         {"fractal_sum", [] { return fractal_cases(Octaves::sum); }},
         {"height_screen_slope", height_screen_slope_cases},
         {"height_slope_plain", [] { return height_slope_cases(false); }},
         {"height_slope_smooth", [] { return height_slope_cases(true); }},
+        {"parallax_march", parallax_march_cases},
+        {"parallax_normal", parallax_normal_cases},
         {"perlin1985_noise", [] { return perlin_cases(true); }},
         {"perlin1985_noise_central", [] { return perlin_cases(true); }},
         {"perlin1985_noise_forward", [] { return perlin_cases(true); }},
-        {"perlin_noise", [] { return perlin_cases(false); }},
+        {"perlin_noise", noise_cases},
         {"perlin_noise_central", [] { return perlin_cases(false); }},
         {"perlin_noise_forward", [] { return perlin_cases(false); }},
+        {"project_to_texture", project_to_texture_cases},
         {"rebase", rebase_cases},
         {"resolve", resolve_cases},
         {"ridged_multifractal", [] { return fractal_cases(Octaves::ridged); }},
@@ -65,6 +72,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"tangent_normal_slope", tangent_normal_cases},
         {"tangent_normal_slope_xy", tangent_normal_xy_cases},
         {"texture_metres", texture_metres_cases},
+        {"texture_offset_to_surface", texture_offset_cases},
         {"texture_step", texcoord_step_cases},
         {"triplanar_gradient", triplanar_gradient_cases},
         {"triplanar_weights", triplanar_weight_cases},

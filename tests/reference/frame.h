@@ -124,11 +124,33 @@ public:
         return TangentFrame<T>{tangent / length(n), bitangent / length(n), false};
     }
 
+    /// dn/dx, dn/dy of the normals as they came, made unit: half the difference of the two neighbours on an axis, the
+    /// difference to the one that belongs to the surface, or 0.
+    ScreenDerivative<T> normal_derivative(std::size_t i, const Decoded<T>& here,
+                                          const ScreenDerivative<T>& base) const {
+        const auto axis = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
+            const UvPixel<T> centre = uv_pixel(i, here);
+            std::vector<Vec<T>> steps;
+            if (index + 1 < count)
+                if (const auto next = neighbour(i + stride); same_surface(centre, next, dp))
+                    steps.push_back(next.normal - centre.normal);
+            if (index > 0)
+                if (const auto last = neighbour(i - stride); same_surface(centre, last, dp))
+                    steps.push_back(centre.normal - last.normal);
+            Vec<T> sum;
+            for (const Vec<T>& step : steps) sum = sum + step / T(steps.size());
+            return sum;
+        };
+        return {axis(1, i % size_.width, size_.width, base.dp_dx),
+                axis(size_.width, i / size_.width, size_.height, base.dp_dy)};
+    }
+
 private:
     UvPixel<T> uv_pixel(std::size_t i, const Decoded<T>& d) const {
         std::optional<float> object;
         if (!object_.empty()) object = object_[i];
-        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position, uv(i)};
+        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position,
+                has("uv.u") ? uv(i) : Vec2<T>{}};
     }
 
     /// As a neighbour: a normal longer than 1e19 or shorter than 1e-19 is not compared with.

@@ -7,6 +7,7 @@
 #include "tests/reference/noise_means.h"
 #include "tests/reference/noise_shape.h"
 #include "tests/reference/normal_transform.h"
+#include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/scale_dependent.h"
 #include "tests/reference/tbn.h"
@@ -146,6 +147,45 @@ LayerFunction<T> make_layer(const DerivativeMapLayer& layer, bool footprint, Sce
             dh_dst = dh_dst * (texture_metres(s.d.dp_dx, s.d.dp_dy, at->d) / texels);
         }
         return {surface_gradient_scale_dependent(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, dh_dst), {}};
+    };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const ParallaxLayer&, bool, SceneTextures<T>&) {
+    return [](const Surfel<T>&) -> Contribution<T> { return {}; };
+}
+
+/// How far a layer moves a surfel towards the viewer, metres along the ray. `view` is the unit to the viewer, who is
+/// `distance` away; `depth` is what a height of 1 stands for.
+template <class T>
+using ShiftFunction = std::function<T(const Surfel<T>&, Vec<T> view, T distance, T depth)>;
+
+/// Nothing moves unless the kind says so.
+template <class T, class Bump>
+ShiftFunction<T> make_shift(const Bump&, bool, SceneTextures<T>&) {
+    return {};
+}
+
+template <class T>
+ShiftFunction<T> make_shift(const ParallaxLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    return [=, texture = textures.slopes(layer.texture, Content::height)](const Surfel<T>& s, Vec<T> view, T distance,
+                                                                          T depth) -> T {
+        const auto at = map_coordinates(layer.uv, s);
+        if (!at) return 0;
+        const auto height = [&](Vec2<T> st) {
+            return sample(*texture.pyramid, 0, st, texture.lod(at->d, footprint), texture.wrap);
+        };
+        const T level = layer.level;
+        T reach = layer.mode == ParallaxMode::offset ? depth : depth / std::max(dot(s.normal, view), T(0.05L));
+        reach = std::min(reach, level < 1 ? distance / (2 * (1 - level)) : distance * T(1e6L));
+        const auto pixels = screen_vector(s.normal, s.d.dp_dx, s.d.dp_dy, view);
+        if (!pixels) return 0;
+        if (footprint) reach *= saturate(std::hypot(pixels->x, pixels->y) * reach / T(0.5L) - 1);
+        if (!(reach > 0)) return 0;
+        if (layer.mode == ParallaxMode::offset) return reach * (height(at->st) - level);
+        const Vec2<T> range = project_to_texture(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, view, false) * reach;
+        const T step = parallax_step(texture.pyramid->levels[0], range, texture.lod(at->d, footprint), layer.steps);
+        return reach * (parallax_march(height, at->st, range, level, step, layer.steps, layer.refine) - level);
     };
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/reference/golden.h"
+#include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/resolve.h"
 #include "tests/reference/scale_dependent.h"
@@ -109,6 +110,29 @@ TEST(Golden, VolumeGradient) {
     const GoldenTable table = golden("listing08_volume_gradient");
     for (std::size_t i = 0; i < table.size(); ++i)
         expect_vec(table, i, surface_gradient_from_volume(unit_normal(table, i), table.vec(i, "g")), "want_sg");
+}
+
+TEST(Golden, ProjectToTexture) {
+    const GoldenTable table = golden("listing11_project_vec_to_tex");
+    for (std::size_t i = 0; i < table.size(); ++i)
+        for (const bool projected : {false, true}) {
+            const Vec2<real> along =
+                project_to_texture(unit_normal(table, i), table.vec(i, "dPdx"), table.vec(i, "dPdy"),
+                                   st_derivative(table, i), table.vec(i, "dir"), projected);
+            const Vec2<real> got = along * real{table.number(i, "bumpScale")};
+            const Vec2<real> want = table.vec2(i, projected ? "want_v" : "want_vSkip");
+            EXPECT_TRUE(finite(got)) << table.label(i);
+            if (finite(want)) EXPECT_LE(relative_error(got, want), tolerance(table, i)) << table.label(i);
+        }
+}
+
+TEST(Golden, TextureOffsetToSurface) {
+    const GoldenTable table = golden("listing12_tex_offs_to_surface");
+    for (std::size_t i = 0; i < table.size(); ++i)
+        expect_vec(table, i,
+                   texture_offset_to_surface(table.vec(i, "sigmaX"), table.vec(i, "sigmaY"), st_derivative(table, i),
+                                             table.vec2(i, "offs")),
+                   "want_d");
 }
 
 TEST(Golden, ScreenDerivative) {

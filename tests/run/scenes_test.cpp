@@ -42,6 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
                                          SceneCase{"noise_family", {1e-3, 5e-2, 1}, {1e-5, 1e-3, 1e-2}},
                                          SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light},
                                          SceneCase{"object_normal", {3e-6, 2e-4, 1e-3}, light},
+                                         SceneCase{"parallax", {2e-5, 2e-3, 20}, {1e-6, 3e-4, 2}},
                                          SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
                                          SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light}),
                          [](const auto& info) { return std::string(info.param.name); });

@@ -14,6 +14,10 @@ std::string height_map(const std::string& rest) {
     return layer("kind = \"height_map\"\ntexture = \"textures/wall.png\"\n" + rest);
 }
 
+std::string parallax(const std::string& rest) {
+    return layer("kind = \"parallax\"\ntexture = \"textures/wall.png\"\n" + rest);
+}
+
 TEST_F(BadScene, FileThatCannotBeRead) {
     const auto message = [](const std::filesystem::path& file) -> std::string {
         try {
@@ -92,6 +96,9 @@ TEST_F(BadScene, UnknownNames) {
                         {"\"kind\" in [[layer]] 1 is \"decall\"; did you mean \"decal\"?", "allowed: \"normal_map\""});
     expect_problem_with(layer("octaves = 2\n"), 5, {"[[layer]] 1 needs the key \"kind\": \"normal_map\", "});
     expect_problem_with(layer("kind = 3\n"), 6, {"must be one of \"normal_map\"", "found 3"});
+    expect_problem_with(parallax("mode = \"steep\"\n"), 8, {"\"mode\"", "allowed: \"offset\", \"march\""});
+    expect_problem_with(parallax("mode = \"offset\"\nsteps = 9\n"), 9, {"\"steps\"", "mode", "march"});
+    expect_problem_with(parallax("blend = \"add\"\n"), 8, {"\"blend\"", "does not belong to kind \"parallax\""});
     expect_problem_with(noise("blend = \"sub\"\n"), 7, {"is \"sub\"; allowed: \"add\", \"subtract\""});
     expect_problem_with(height_map("wrap = \"Clamp\"\n"), 8, {"did you mean \"clamp\"?"});
     expect_problem_with("[lighting]\nrelight = \"on\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, 1]\n", 6,
@@ -137,6 +144,10 @@ TEST_F(BadScene, NumbersOutOfRange) {
     expect_problem_with(decal("angle_fade = [75, 60]\n"), 9, {"smaller angle first"});
     expect_problem_with(decal("angle_fade = [75, 190]\n"), 9, {"at most 180; found 190"});
     expect_problem_with(height_map("uv = { scale = [1, 0] }\n"), 8, {"must not be 0"});
+    expect_problem_with(parallax("scale = 0\n"), 8, {"\"scale\"", "must be greater than 0 and at most 1000000"});
+    expect_problem_with(parallax("steps = 0\n"), 8, {"from 1 to 1024; found 0"});
+    expect_problem_with(parallax("refine = 17\n"), 8, {"from 0 to 16; found 17"});
+    expect_problem_with(parallax("level = 1.5\n"), 8, {"must be at least 0 and at most 1; found 1.5"});
     expect_problem_with("[lighting]\nmax_ratio = 0.5\n", 6, {"must be at least 1"});
 }
 

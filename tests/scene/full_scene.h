@@ -81,6 +81,20 @@ angle_fade = [60, 75]
 kind = "constant"
 gradient = [0.1, 0, -0.2]
 
+[[layer]]
+kind = "parallax"
+texture = "textures/wall.png"
+wrap = "clamp"
+uv = { scale = 3 }
+mode = "march"
+steps = 64
+refine = 5
+level = 0.5
+curved = true
+scale = 0.25
+footprint = false
+mask = { object = 2 }
+
 [lighting]
 relight = "ratio"
 ambient = [0.1, 0.2, 0.3]

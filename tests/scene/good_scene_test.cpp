@@ -36,7 +36,7 @@ TEST_F(GoodScene, FrameAndCamera) {
 
 TEST_F(GoodScene, MappedLayers) {
     const Scene scene = load(full_scene);
-    ASSERT_EQ(scene.layers.size(), 7u);
+    ASSERT_EQ(scene.layers.size(), 8u);
     const Layer& plaster = scene.layers[0];
     EXPECT_EQ(plaster.name, "plaster");
     EXPECT_EQ(plaster.location, "courtyard.toml:15");
@@ -77,7 +77,7 @@ TEST_F(GoodScene, MappedLayers) {
 
 TEST_F(GoodScene, OtherLayers) {
     const Scene scene = load(full_scene);
-    ASSERT_EQ(scene.layers.size(), 7u);
+    ASSERT_EQ(scene.layers.size(), 8u);
     const auto& triplanar = std::get<TriplanarLayer>(scene.layers[2].bump);
     EXPECT_EQ(triplanar.texture.content, Content::normal);
     EXPECT_TRUE(triplanar.texture.y_down);
@@ -106,6 +106,18 @@ TEST_F(GoodScene, OtherLayers) {
     EXPECT_NEAR(decal.angle_fade[0], std::cos(75 * degree), 1e-15);
     EXPECT_NEAR(decal.angle_fade[1], 0.5, 1e-15);
     EXPECT_EQ(std::get<ConstantLayer>(scene.layers[6].bump).gradient, (Vec3{0.1, 0, -0.2}));
+    const auto& parallax = std::get<ParallaxLayer>(scene.layers[7].bump);
+    EXPECT_EQ(parallax.texture.file, folder_ / "textures/wall.png");
+    EXPECT_EQ(parallax.texture.wrap, Wrap::clamp);
+    EXPECT_EQ(parallax.uv.scale, (std::array<double, 2>{3, 3}));
+    EXPECT_EQ(parallax.mode, ParallaxMode::march);
+    EXPECT_EQ(parallax.steps, 64);
+    EXPECT_EQ(parallax.refine, 5);
+    EXPECT_EQ(parallax.level, 0.5);
+    EXPECT_TRUE(parallax.curved);
+    EXPECT_EQ(scene.layers[7].scale, 0.25);
+    EXPECT_FALSE(scene.layers[7].footprint);
+    EXPECT_EQ(scene.layers[7].mask.object, 2);
 }
 
 TEST_F(GoodScene, ObjectNormals) {
