@@ -105,6 +105,7 @@ std::vector<Function> surface_functions() {
          .parameters = {base_normal, vector("v", "any length, world", "perturbed normal, facing either way")},
          .results = {result(surface_gradient, {resolved_degrees, degrees, relative})},
          .variants = {{standard, "g = wr_surface_gradient_from_perturbed_normal(n, v);", {1e-5, 1e-5, 5e-7}}},
+         .fp64_error = 5e-8,
          .note = "Relative errors grow by 1e-14 |v| / |n . v|; what the gradient resolves to keeps its bound. A v in "
                  "the tangent plane gives a gradient of about 1e18, v = 0 gives 0."},
         {.name = "surface_gradient_from_volume",

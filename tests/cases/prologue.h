@@ -55,7 +55,7 @@ inline Cases two_sided_cases() {
         const V n = seed == 1 ? V{} : Random::rounded(random.unit() * random.magnitude(-34, 37));
         c.add("two sides, seed " + std::to_string(seed), true);
         c.in("n", n), c.in("flip", seed % 2);
-        c.out("normal", normalize(n) * (seed % 2 ? -1 : 1));
+        c.out("normal", normalize(n) * real(seed % 2 ? -1 : 1));
     }
     return c;
 }
@@ -70,7 +70,7 @@ inline Cases facing_cases() {
         const V p = Random::rounded((side + normalize(n) * cosine) * random.magnitude(-15, 15));
         c.add("facing, seed " + std::to_string(seed), std::abs(cosine) < 0.01L);
         c.in("n", n), c.in("p", p);
-        const V unit = normalize(n), v = normalize(p) * -1;
+        const V unit = normalize(n), v = normalize(p) * real(-1);
         c.out("normal", reference::face_viewer(unit, v));
         c.out("reflected", real(dot(unit, v) < 0 ? 1 : 0));
     }
@@ -90,7 +90,7 @@ inline Cases rebase_cases() {
     const GoldenTable table = reference::golden("listing09_prologue");
     for (std::size_t i = 0; i < table.size(); ++i) {
         add_golden_row(c, table, i, {});
-        const V n = normalize(table.vec(i, "In_n")) * (table.number(i, "isFlip") != 0 ? -1 : 1);
+        const V n = normalize(table.vec(i, "In_n")) * real(table.number(i, "isFlip") != 0 ? -1 : 1);
         answer(Random::rounded(n), table.vec(i, "dPdx"), table.vec(i, "dPdy"));
     }
     for (unsigned seed = 1; seed <= 200; ++seed) {

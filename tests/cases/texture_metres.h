@@ -26,9 +26,9 @@ inline Cases texture_metres_cases() {
         Random random(seed);
         SurfaceDerivatives d = random_derivatives(random);
         if (seed % 2)
-            d.dp_dy = d.dp_dx * 2;
+            d.dp_dy = d.dp_dx * real(2);
         else
-            d.st.dy = d.st.dx * -4;
+            d.st.dy = d.st.dx * real(-4);
         c.add("texture metres, degenerate, seed " + std::to_string(seed), true);
         answer(d);
         c.want["metres"].back() = V{};

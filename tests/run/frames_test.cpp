@@ -183,7 +183,9 @@ TEST(Frames, TangentsOfTheRenderer) {
     EXPECT_EQ(evaluate_on(frame, scene).at("marked")[44], Marked::no_uv_derivative);
     EXPECT_EQ(evaluate_on(frame, scene).at("marked")[46], 0);
     Scene staged = scene;
-    staged.layers.insert(staged.layers.begin(), {staged.layers[2], Layer{.name = "resolve", .bump = ResolveLayer{}}});
+    Layer resolve;
+    resolve.name = "resolve", resolve.bump = ResolveLayer{};
+    staged.layers = {staged.layers[2], resolve, staged.layers[0], staged.layers[1]};
     const Truth truth(frame, staged);
     expect_within("tangents after a resolve", normal_error(evaluate_on(frame, staged), truth), {1e-4, 1e-3, 3e-3},
                   "degrees");
@@ -218,7 +220,8 @@ TEST(Frames, ObjectNormalsOfATurnedScaledAndMirroredObject) {
     rope.channels = {{{0, 1, 0}, {0, 0, -1}, {1, 0, 0}}};
     rope.object_to_world = {{{0.5, 1, 0.2}, {-2, 0.3, 0}, {0.1, 0, -3}}};
     scene.layers[0].bump = rope, scene.layers[0].scale = 0.3;
-    expect_agreement("object normals", frame, scene);
+    const Truth truth(frame, scene);  // gradients of normals that are nearly tangent are huge: angles only
+    expect_within("object normals", normal_error(evaluate_on(frame, scene), truth), {1e-4, 1e-3, 3e-3}, "degrees");
     std::get<ObjectNormalLayer>(scene.layers[0].bump).object_to_world[2] = {0, 0, 0};
     EXPECT_THROW(evaluate(device(), scene, frame.frame), Error);
 }
