@@ -68,12 +68,14 @@ inline Cases simplex_cases() {
     return c;
 }
 
-/// Points whose gradient does not jump within `margin`.
+/// Points whose gradient does not jump within `margin`. The digits of a point within its cell limit the direction to a
+/// feature point nearby: the bounds are for 0.1 cells and more, and grow nearer by.
 inline Cases worley_cases(reference::Cell feature, real margin = 1e-5L) {
     Cases c{.name = "worley"};
     each_lattice_point(4e6L, [&](const std::string& label, bool hard, V p) {
-        if (reference::distance_to_jump(p, feature) > margin)
-            add_noise(c, label, hard, p, reference::worley_noise(p, feature));
+        if (reference::distance_to_jump(p, feature) <= margin) return;
+        add_noise(c, label, hard, p, reference::worley_noise(p, feature));
+        c.allowance.back() = std::max(real{1}, 0.1L / reference::worley_noise(p, reference::Cell::f1).value);
     });
     return c;
 }
@@ -81,12 +83,12 @@ inline Cases worley_cases(reference::Cell feature, real margin = 1e-5L) {
 /// Points whose second nearest feature point lies beyond the 27 cells around them: 1 in 5000 of those near a face.
 inline Cases worley_search_cases() {
     Cases c{.name = "worley, where 27 cells are not enough"};
-    for (const V p : {V{31.203125L, -184.09375L, -53.9921875L}, V{-183.90625L, 133.59375L, -25.0078125L},
-                      V{51.328125L, 192.96875L, -75.9921875L}, V{38.953125L, 33.734375L, -197.9921875L},
-                      V{-182.0625L, 151.96875L, -156.9921875L}, V{143.0L, -115.515625L, 183.9921875L},
-                      V{-69.609375L, 63.828125L, -167.0078125L}, V{-77.953125L, 139.03125L, 87.0078125L},
-                      V{124.703125L, 144.71875L, -15.0078125L}, V{76.046875L, 0.546875L, -187.0078125L},
-                      V{-176.984375L, 49.984375L, 151.0078125L}, V{-3.265625L, -81.8125L, 186.0078125L}})
+    for (const V p : {V{132.078125L, -91.1875L, -143.0078125L}, V{116.359375L, 43.21875L, -197.9921875L},
+                      V{-73.96875L, 145.0L, 153.0078125L}, V{54.265625L, -87.8125L, -43.9921875L},
+                      V{-94.015625L, 125.234375L, -97.0078125L}, V{-78.0L, -35.359375L, 156.0078125L},
+                      V{-5.515625L, 92.953125L, -4.0078125L}, V{154.03125L, 197.40625L, -13.9921875L},
+                      V{-155.28125L, 82.765625L, -6.0078125L}, V{24.234375L, 137.625L, -30.0078125L},
+                      V{-8.09375L, -42.78125L, -130.9921875L}, V{95.40625L, 62.109375L, 144.0078125L}})
         add_noise(c, fmt::format("point {}", c.size()), true, p, reference::worley_noise(p, reference::Cell::f2));
     return c;
 }

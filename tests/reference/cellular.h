@@ -13,7 +13,7 @@ enum class Cell { f1, f2, f2_f1 };
 /// "lowbias32"), ten of them an axis.
 template <class T>
 Vec<T> feature_point(std::int64_t x, std::int64_t y, std::int64_t z) {
-    std::uint64_t h = static_cast<std::uint64_t>((x & 255) + 256 * (y & 255) + 65536 * (z & 255));
+    std::uint64_t h = 0x9e3779b9 ^ static_cast<std::uint64_t>((x & 255) + 256 * (y & 255) + 65536 * (z & 255));
     const auto mix = [&](int shift, std::uint64_t factor) { h = ((h ^ (h >> shift)) * factor) & 0xffffffffULL; };
     mix(16, 0x7feb352d);
     mix(15, 0x846ca68b);
