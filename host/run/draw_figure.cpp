@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "device/guarded.h"
+#include "io/camera_file.h"
 #include "io/gbuffer_reader.h"
 #include "io/image_writer.h"
 #include "io/montage.h"
@@ -74,6 +75,7 @@ MontagePart cut(const Shown& shown, Size frame, const std::array<double, 4>& cro
 void draw_figure(const Device& device, const Figure& figure, const std::filesystem::path& file) {
     guarded("draw a figure", [&] {
         const GBufferReader reader(figure.scene.gbuffer.file, figure.scene.gbuffer);
+        check_residual(read_frame_camera(figure.scene.camera, reader, 0), figure.scene.camera.max_residual, reader);
         const auto exposure = static_cast<float>(std::exp2(figure.scene.lighting.exposure));
         std::vector<MontagePart> parts;
         for (const Panel& panel : figure.panels) {

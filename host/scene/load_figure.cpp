@@ -57,7 +57,7 @@ Figure load_figure(const std::filesystem::path& file) {
     read_scene(root, out.scene);
     if (auto table = root.table("figure", "[figure]")) read_figure(*table, out);
     for (Table& table : root.tables("panel")) read_panel(table, out, out.panels.emplace_back());
-    if (!root.has("panel"))
+    if (out.panels.empty() && !root.is_bad("panel"))
         document.problems.add(0,
                               "needs a [[panel]], at least caption = \"...\" and layers = [] (to evaluate a scene, "
                               "use \"wrinkle run\")");

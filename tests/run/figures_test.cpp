@@ -103,6 +103,8 @@ colour = 3
         expect_mentions(error.what(), {"nowhere.exr", "bad.toml:6", "left < right", "bad.toml:13", "dnets", "dents",
                                        "caption", "colour", "relight"});
     }
+    write_text(folder / "none.toml", "panel = []\n[gbuffer]\nfile = \"bad.toml\"\n[camera]\nfrom = \"exr\"\n");
+    EXPECT_THROW(load_figure(folder / "none.toml"), Error);
     const fs::path figure = data_folder / "figures/layering.toml", scene = data_folder / "scenes/noise.toml";
     EXPECT_THROW(load_scene(figure), Error);
     EXPECT_THROW(load_figure(scene), Error);
