@@ -182,6 +182,18 @@ bool Table::read(std::string_view key, std::string& out) {
     return true;
 }
 
+bool Table::read(std::string_view key, std::vector<std::string>& out) {
+    const toml::node* node = find(key);
+    if (!node) return false;
+    const toml::array* array = node->as_array();
+    const auto is_text = [](const toml::node& element) { return element.is_string(); };
+    if (!array || !std::all_of(array->begin(), array->end(), is_text))
+        return wrong_type(key, "an array of texts, [\"..\", \"..\"]", *node);
+    out.clear();
+    for (const toml::node& element : *array) out.push_back(element.as_string()->get());
+    return true;
+}
+
 bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern) {
     std::string name;
     if (!read(key, name)) return false;

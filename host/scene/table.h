@@ -48,6 +48,7 @@ public:
     bool read(std::string_view key, int& out, int low, int high);
     bool read(std::string_view key, double& out, const Range& range = any_number);
     bool read(std::string_view key, std::string& out);
+    bool read(std::string_view key, std::vector<std::string>& out);
     template <std::size_t N>
     bool read(std::string_view key, std::array<double, N>& out, const Range& range = any_number) {
         return read_numbers(key, out.data(), N, range);
