@@ -61,6 +61,13 @@ std::string standard_of(const Setting& setting) {
     return numbers.empty() ? "required" : "default " + joined(numbers, ",");
 }
 
+/// For a cell of a table.
+std::string escaped(std::string text) {
+    for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+        text.insert(at, 1, '\\');
+    return text;
+}
+
 /// Calls `visit` with every concept file and its functions, in the order of the table.
 template <class Visit>
 void by_file(Visit visit) {
@@ -170,9 +177,11 @@ std::string reference_page() {
                 errors.push_back(fmt::format("{} {}", name_of(variant.precision), errors_of(*function, variant)));
             if (function->fp64_error != Function{}.fp64_error)
                 errors.push_back(fmt::format("double {}", digits(function->fp64_error)));
-            text += fmt::format("| `{}` | {}.{}{} | {} | {} | {} | {} |\n", function->name, function->summary,
-                                function->note.empty() ? "" : " ", function->note, joined(takes, "<br>"),
-                                joined(gives, "<br>"), joined(errors, "<br>"), function->source);
+            if (!function->note.empty()) errors.push_back(function->note);
+            const std::string cells[] = {'`' + function->name + '`', function->summary,      joined(takes, "<br>"),
+                                         joined(gives, "<br>"),      joined(errors, "<br>"), function->source};
+            for (const std::string& cell : cells) text += "| " + escaped(cell) + " ";
+            text += "|\n";
         }
     });
     return text;

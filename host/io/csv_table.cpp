@@ -49,9 +49,9 @@ bool parse(std::string_view text, T& value) {
 struct CsvTable::Parser {
     CsvTable& table;
     std::string problem{};
-    std::size_t cells = 0;  ///< of this row
-    std::uint32_t line = 1;
-    int last_end = 0;  ///< the line end just read, of '\r' '\n'
+    std::size_t cells = 0;                    ///< of this row
+    std::uint32_t line = 1, inner_lines = 0;  ///< where the row begins; line ends within its cells
+    int last_end = 0;                         ///< the line end just read, of '\r' '\n'
     bool header = true;
 
     static void cell(void* data, std::size_t size, void* self) {
@@ -87,8 +87,6 @@ struct CsvTable::Parser {
         line += inner_lines + 1;
         cells = inner_lines = 0, last_end = end;
     }
-
-    std::uint32_t inner_lines = 0;  ///< line ends within quoted cells
 };
 
 CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
@@ -97,15 +95,16 @@ CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(na
         throw Error(fmt::format("{}: no CSV in ASCII or UTF-8: it holds zero bytes", name_));
     text_.reserve(text.size());
     csv_parser parser;
-    csv_init(&parser, CSV_REPALL_NL | CSV_STRICT_FINI);
+    csv_init(&parser, CSV_REPALL_NL | CSV_STRICT | CSV_STRICT_FINI);
     Parser state{*this};
-    const bool parsed =
-        csv_parse(&parser, text.data(), text.size(), Parser::cell, Parser::row, &state) == text.size() &&
-        csv_fini(&parser, Parser::cell, Parser::row, &state) == 0;
+    const bool parsed = csv_parse(&parser, text.data(), text.size(), Parser::cell, Parser::row, &state) == text.size();
+    const bool closed = parsed && csv_fini(&parser, Parser::cell, Parser::row, &state) == 0;
     const int error = csv_error(&parser);
     csv_free(&parser);
-    if (!parsed && error == CSV_ENOMEM) throw std::bad_alloc();
-    if (!parsed) throw Error(fmt::format("{}:{}: a quote is not closed", name_, state.line));
+    if (error == CSV_ENOMEM) throw std::bad_alloc();
+    if (!parsed)
+        throw Error(fmt::format("{}:{}: a quote within a cell; quote the cell and double it", name_, state.line));
+    if (!closed) throw Error(fmt::format("{}:{}: a quote is not closed", name_, state.line));
     if (!state.problem.empty()) throw Error(state.problem);
     if (names_.empty()) throw Error(fmt::format("{} is empty; its first row must name the columns", name_));
 }

@@ -25,7 +25,7 @@ TEST(Eval, TakesColumnsInAnyOrderAndPassesOthersThroughInPlace) {
                "\xef\xbb\xbf"
                "name,g.x,normal.x,n.x,n.z,g.z,\"note, long\",n.y,g.y\r\n"
                "\"a, b\",0.75,9,0,1,0,\" x\",0,0\r\n");
-    const Ran ran = place.run("eval resolve --in - --out out.csv", "cat in.csv |");
+    const Ran ran = place.run("eval resolve --in - --out out.csv", "", "in.csv");
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.out, "");
     EXPECT_EQ(read_text(place / "out.csv"),
@@ -176,7 +176,8 @@ TEST(Eval, ExamplesRun) {
         const std::string example = function_example(function);
         const std::size_t command = example.find("wrinkle ");
         if (example.find(".json") != std::string::npos || example.find(".png") != std::string::npos) continue;
-        const Ran ran = place.run(example.substr(command + 8) + " --in -", example.substr(0, command));
+        const Ran ran =
+            place.run(example.substr(command + 8), example.substr(0, example.find(" | ")) + " > in.csv;", "in.csv");
         EXPECT_EQ(ran.code, 0) << example << "\n" << ran.err;
         for (const Result& result : function.results) expect_mentions(ran.out, {result.columns()[0]});
     }

@@ -57,7 +57,8 @@ TEST(CsvTable, RefusesRaggedRowsAndEmptyText) {
     EXPECT_EQ(message_of("b\n1,2\n"), "in.csv:2: row 1 has 2 cells, the header 1 column");
     for (const char* text : {"", "\n\n", "\xef\xbb\xbf"})
         EXPECT_EQ(message_of(text), "in.csv is empty; its first row must name the columns");
-    EXPECT_NE(message_of("a,b\n1,\"2\n3,4\n").find("quote"), std::string::npos);
+    EXPECT_EQ(message_of("a,b\n1,\"2\n3,4\n"), "in.csv:2: a quote is not closed");
+    EXPECT_EQ(message_of("a,b\n1,2\n5\" pipe,4\n"), "in.csv:3: a quote within a cell; quote the cell and double it");
     EXPECT_NE(message_of(std::string_view("a\0b", 3)).find("zero bytes"), std::string::npos);
     EXPECT_EQ(message_of("a,c\n1,2\n"), "in.csv has no column \"b\"");
     EXPECT_EQ(message_of("b,b\n1,2\n"), "in.csv has two columns \"b\"");

@@ -6,6 +6,7 @@
 #include "functions/tables.h"
 #include "tests/cases/registry.h"
 #include "tests/kernels/check.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::test {
 namespace {
@@ -52,6 +53,22 @@ TEST_P(EveryFunction, IsDescribedInFull) {
     for (const FunctionVariant& variant : function.variants) standard |= variant.precision == Precision::standard;
     EXPECT_TRUE(standard);
     EXPECT_TRUE(std::ranges::is_sorted(function.variants, {}, &FunctionVariant::precision));
+}
+
+TEST(EvaluateFunction, RefusesDoubleWhereThereIsNone) {
+    Device device = test_device();
+    device.info.fp64 = false;
+    const Function& resolve = wrinkle::function("resolve");
+    const std::vector<double> one(1, 1);
+    ColumnsInDouble in;
+    for (const Parameter& parameter : resolve.parameters)
+        for (const std::string& column : parameter.columns()) in.emplace(column, one);
+    try {
+        evaluate_function(device, resolve, in, ColumnResultsInDouble{});
+        ADD_FAILURE() << "evaluated";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("no double precision"), std::string::npos) << error.what();
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, EveryFunction, testing::ValuesIn(names()),
