@@ -3,14 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 namespace wrinkle::reference {
 namespace {
 
 using V = Vec<real>;
-using Surface = std::function<V(real u, real v)>;
-using Height = std::function<real(real u, real v)>;
 
 /// A torus; with a ring of radius 0 a sphere.
 struct Torus {

@@ -122,7 +122,8 @@ TEST(Golden, ProjectToTexture) {
             const Vec2<real> got = along * real{table.number(i, "bumpScale")};
             const Vec2<real> want = table.vec2(i, projected ? "want_v" : "want_vSkip");
             EXPECT_TRUE(finite(got)) << table.label(i);
-            if (finite(want)) EXPECT_LE(relative_error(got, want), tolerance(table, i)) << table.label(i);
+            if (!finite(want)) continue;
+            EXPECT_LE(relative_error(got, want), tolerance(table, i)) << table.label(i);
         }
 }
 

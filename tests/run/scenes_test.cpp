@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
                                          SceneCase{"noise_family", {1e-5, 1.5e-2, 60}, {3e-7, 3e-4, 1}},
                                          SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light},
                                          SceneCase{"object_normal", {3e-6, 2e-4, 1e-3}, light},
-                                         SceneCase{"parallax", {2e-5, 2e-3, 20}, {1e-6, 3e-4, 2}},
+                                         SceneCase{"parallax", {3e-6, 4e-4, 2e-3}, light},
                                          SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
                                          SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light}),
                          [](const auto& info) { return std::string(info.param.name); });
