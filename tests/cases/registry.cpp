@@ -38,6 +38,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"perlin1985_noise", [] { return perlin_cases(true); }},
         {"perlin1985_noise_central", [] { return perlin_cases(true); }},
         {"perlin1985_noise_forward", [] { return perlin_cases(true); }},
+        {"perlin_noise", [] { return perlin_cases(false); }},
         {"perlin_noise_central", [] { return perlin_cases(false); }},
         {"perlin_noise_forward", [] { return perlin_cases(false); }},
         {"project_to_texture", project_to_texture_cases},
