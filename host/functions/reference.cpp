@@ -24,11 +24,6 @@ std::string digits(double value) {
     return text;
 }
 
-const char* name_of(Precision precision) {
-    const char* const names[] = {"fast", "standard", "exact", "double"};
-    return names[static_cast<int>(precision)];
-}
-
 const char* unit_of(ErrorMeasure measure) {
     const char* const units[] = {"degrees", "relative", "absolute", "degrees once resolved"};
     return units[static_cast<int>(measure)];
@@ -95,7 +90,7 @@ std::string function_list() {
         for (const Function* function : here) {
             text += fmt::format("  {}\n      {}\n", function->name, function->summary);
             for (const FunctionVariant& variant : function->variants)
-                text += fmt::format("      {:<9} {}\n", name_of(variant.precision), errors_of(*function, variant));
+                text += fmt::format("      {:<9} {}\n", precision_name(variant.precision), errors_of(*function, variant));
         }
     });
     return text;
@@ -144,7 +139,7 @@ std::string function_help(const Function& function) {
                      fmt::format("{}; {}; {}", setting.meaning, wanted_text(setting.kind), standard_of(setting)));
     text += "largest error, --precision\n";
     for (const FunctionVariant& variant : function.variants)
-        text += line(name_of(variant.precision), errors_of(function, variant));
+        text += line(precision_name(variant.precision), errors_of(function, variant));
     text += line("double", fmt::format("{} by any measure", digits(function.fp64_error)));
     if (!function.note.empty()) text += "note\n  " + function.note + "\n";
     return text + "example\n  " + function_example(function) + "\n";
@@ -174,7 +169,7 @@ std::string reference_page() {
             for (const Result& result : function->results)
                 gives.push_back(fmt::format("`{}` {}; {}", joined(result.columns()), result.meaning, result.unit));
             for (const FunctionVariant& variant : function->variants)
-                errors.push_back(fmt::format("{} {}", name_of(variant.precision), errors_of(*function, variant)));
+                errors.push_back(fmt::format("{} {}", precision_name(variant.precision), errors_of(*function, variant)));
             if (function->fp64_error != Function{}.fp64_error)
                 errors.push_back(fmt::format("double {}", digits(function->fp64_error)));
             if (!function->note.empty()) errors.push_back(function->note);
