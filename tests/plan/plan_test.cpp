@@ -110,6 +110,22 @@ TEST(Plan, TakesTheBestUvDerivativesThereAre) {
     EXPECT_FALSE(has("object"));
 }
 
+TEST(Plan, ParallaxMovesTheUvPlaneOnlyForLayersAfterIt) {
+    ParallaxLayer depth;
+    depth.texture.file = "stones.png";
+    depth.uv.source = UvSource::planar;
+    const auto plan = [&](std::vector<Layer> layers) { return make_plan(scene_of(std::move(layers)), everything()); };
+    EXPECT_FALSE(mentions(plan({layer(depth), layer(NoiseLayer{})}), "uv"));
+    EXPECT_FALSE(mentions(plan({layer(normal_map(), "first"), layer(depth)}), "uv.st = wr_add"));
+    EXPECT_TRUE(mentions(plan({layer(depth), layer(normal_map(), "last")}), "uv.st = wr_add"));
+    EXPECT_FALSE(plan({layer(depth)}).neighbours);
+    depth.curved = true;
+    EXPECT_TRUE(plan({layer(depth)}).neighbours);
+    Layer deep = layer(depth, "deep");
+    deep.scale = -1;
+    expect_mentions(refusal(scene_of({deep}), everything()), {"deep", "scale is -1", "above 0"});
+}
+
 TEST(Plan, PrefersDepthUnlessTheSceneOrTheCameraSaysOtherwise) {
     Scene scene = scene_of({});
     Available available = everything();

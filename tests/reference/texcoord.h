@@ -14,7 +14,9 @@ struct Surfel {
     Vec<T> position;  ///< world
     Vec<T> normal;
     ScreenDerivative<T> d;
-    std::optional<TexCoord<T>> uv;  ///< the UV plane; nothing without plane or derivative
+    std::optional<TexCoord<T>> uv;          ///< the UV plane; nothing without plane or derivative
+    std::optional<TangentFrame<T>> vertex;  ///< the renderer's tangents; nothing without planes, or not finite
+    bool vertex_planes = false;             ///< the G-buffer has them
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.
