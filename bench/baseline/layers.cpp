@@ -51,7 +51,10 @@ PreparedLayer LayerBuilder::layer(const Layer& in) {
     out.mask = mask(in.mask);
     std::visit(
         [&](const auto& kind) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(kind)>, ResolveLayer>) out.bump = bump(kind);
+            if constexpr (requires { this->bump(kind); })
+                out.bump = bump(kind);
+            else
+                throw Error(std::string("baseline: it has no kind ") + kind.kind);
         },
         in.bump);
     return out;

@@ -77,7 +77,7 @@ const char* view_text(const Emitter& emitter) {
 std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
     std::string text;
     std::vector<std::string> planes = geometry.planes;
-    planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z", "uv.u", "uv.v"});
+    planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z"});
     if (object) planes.push_back("object");
     for (const std::string& plane : planes)
         text += fmt::format(", {}{}", declare ? "global const float *" : "", identifier(plane));
@@ -89,19 +89,42 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const std::string load = "wr_load_near({}, at, pixels)";
     const bool depth = geometry.planes.size() == 1;
     std::string text =
-        "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated.\n"
+        "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated, with what u and v hold there.\n"
         "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
-        neighbour_planes(geometry, object, true) + ")\n{\n";
+        neighbour_planes(geometry, object, true) + ", global const float *u, global const float *v)\n{\n";
     text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.position + "\n";
     text += fmt::format(
         "    mask valid = (x > 0) & (y > 0) & (x < frame->width) & (y < frame->height){};\n"
-        "    vec2 uv = wr_v2(wr_real(wr_load_near(in_uv_u, at, pixels)), wr_real(wr_load_near(in_uv_v, at, pixels)));\n"
+        "    vec2 uv = wr_v2(wr_real(wr_load_near(u, at, pixels)), wr_real(wr_load_near(v, at, pixels)));\n"
         "    vec3 n = wr_v3(wr_real(nx), wr_real(ny), wr_real(nz));\n"
         "    real object = {};\n"
         "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",
         depth ? " & (wr_real(z) > 0) & (wr_real(z) < WR_BACKGROUND_DEPTH)" : "",
         object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
     return text;
+}
+
+/// How a section asks for its neighbours.
+struct NeighbourText {
+    std::string object;     // the pixel's own object index
+    std::string beside[2];  // the neighbours before and after along x and y, as arguments
+};
+
+/// `values` are the two planes that a neighbour brings with it. The pixel's place is `here`, a row is `row` long.
+NeighbourText neighbour_text(Emitter& emitter, const GeometryText& geometry, Section& section,
+                             const std::string& values) {
+    const bool object = emitter.has("object");
+    if (object) section.inputs.insert("object");
+    if (emitter.helpers.empty()) emitter.helpers = neighbour_helper(geometry, object);
+    emitter.plan.neighbours = true;
+    const std::string planes = neighbour_planes(geometry, object, false) + ", " + values;
+    const auto neighbour = [&](const char* place) {
+        return fmt::format("\n            wr_neighbour_at(frame, {}{})", place, planes);
+    };
+    return {object ? "wr_load(in_object, at.in)" : "0",
+            {neighbour("here - 1, in_pixels, at.x - 1, at.y") + "," + neighbour("here + 1, in_pixels, at.x + 1, at.y"),
+             neighbour("here - row, in_pixels, at.x, at.y - 1") + "," +
+                 neighbour("here + row, in_pixels, at.x, at.y + 1")}};
 }
 
 /// Sets uv and uv_valid, from the best the G-buffer has.
@@ -145,25 +168,15 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        const bool object = emitter.has("object");
-        if (object) section.inputs.insert("object");
-        emitter.helpers += neighbour_helper(geometry, object);
-        emitter.plan.neighbours = true;
-        const std::string planes = neighbour_planes(geometry, object, false);
+        const NeighbourText taps = neighbour_text(emitter, geometry, section, "in_uv_u, in_uv_v");
         text +=
             "        long here = at.in, row = width;\n"
             "        mask usable = uv_valid;\n"
             "        wr_neighbour self = {wr_v2(wr_real(u), wr_real(v)), p, unturned, " +
-            std::string(object ? "wr_load(in_object, at.in)" : "0") + ", uv_valid};\n";
-        const struct {
-            const char *before, *after, *dp, *member;
-        } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y", "here + 1, in_pixels, at.x + 1, at.y", "dp_dx", "dx"},
-                    {"here - row, in_pixels, at.x, at.y - 1", "here + row, in_pixels, at.x, at.y + 1", "dp_dy", "dy"}};
-        for (const auto& axis : axes)
-            text += fmt::format(
-                "        uv.{3} = wr_texcoord_difference(self, wr_neighbour_at(frame, {0}{4}),\n"
-                "                                       wr_neighbour_at(frame, {1}{4}), {2}, &usable);\n",
-                axis.before, axis.after, axis.dp, axis.member, planes);
+            taps.object + ", uv_valid};\n";
+        for (int axis = 0; axis < 2; ++axis)
+            text += fmt::format("        uv.{0} = wr_texcoord_difference(self, {1}, dp_{0}, &usable);\n",
+                                axis == 0 ? "dx" : "dy", taps.beside[axis]);
         text += "        uv_valid = usable;\n";
         section.operations += 260;
     }
@@ -189,6 +202,33 @@ std::string face_viewer_text(const Emitter& emitter) {
         "        mask away;\n"
         "        n = wr_face_viewer(n, {}, &away);\n",
         view_text(emitter));
+}
+
+std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section) {
+    const GeometryText geometry = geometry_text(emitter);
+    section.inputs.insert(geometry.planes.begin(), geometry.planes.end());
+    section.inputs.insert({"normal.x", "normal.y", "normal.z", plane});
+    section.reads.insert({"valid", "marked", "p"});
+    section.writes.insert("marked");
+    section.operations += 300;
+    const std::string height = identifier(plane);
+    const NeighbourText taps = neighbour_text(emitter, geometry, section, height + ", " + height);
+    // What belongs to a surface is asked of the base normal, whatever stage this is.
+    return "        vec2 dh;\n        {\n" + load_normal("wr_load_floats({}, at.in)", "        ") +
+           "        vec3 unturned = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), n));\n"
+           "        vec3 step_x, step_y;\n        {\n        vec3 n = unturned, dp_dx, dp_dy;\n" +
+           face_viewer_text(emitter) + derivative_text(emitter) +
+           "        step_x = dp_dx, step_y = dp_dy;\n        }\n        long here = at.in, row = width;\n" +
+           fmt::format(
+               "        floats height = wr_load_floats({}, at.in);\n"
+               "        mask usable = active & wr_finite(height);\n"
+               "        wr_neighbour self = {{wr_v2(wr_real(height), (real)(0)), p, unturned, {}, usable}};\n"
+               "        dh.x = wr_height_difference(self, {}, step_x, &usable);\n"
+               "        dh.y = wr_height_difference(self, {}, step_y, &usable);\n"
+               "        dh = wr_select(usable, dh, wr_v2((real)(0), (real)(0)));\n"
+               "        real low_bits = marked - 8 * wr_floor(marked / 8);\n"
+               "        marked += (active & !usable & (low_bits < 4)) ? (real)(4) : (real)(0);\n        }}\n",
+               height, taps.object, taps.beside[0], taps.beside[1]);
 }
 
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {

@@ -9,6 +9,8 @@ void read_weight(Table& table, Layer& layer) {
     if (auto mask = table.table("mask", "mask of " + table.where())) read_mask(*mask, layer.mask);
 }
 
+void read_project(Table& table, Layer& layer) { table.read("project", layer.project); }
+
 void read_texture_file(Table& table, TextureUse& texture) {
     table.require("texture");
     table.read_file("texture", texture.file);

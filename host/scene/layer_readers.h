@@ -7,6 +7,8 @@ namespace wrinkle::scene {
 
 /// scale, blend, footprint, mask
 void read_weight(Table& table, Layer& layer);
+/// project: for kinds that are gradients in space
+void read_project(Table& table, Layer& layer);
 /// texture
 void read_texture_file(Table& table, TextureUse& texture);
 /// y
@@ -21,6 +23,7 @@ void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
 /// One function a kind.
 void read_normal_map(Table& table, Layer& layer);
 void read_height_map(Table& table, Layer& layer);
+void read_height_channel(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);

@@ -9,6 +9,7 @@ void read_noise(Table& table, Layer& layer) {
     table.read("octaves", bump.octaves, 1, 16);
     table.read("lacunarity", bump.lacunarity, {.low = 0, .high = 16, .low_is_allowed = false});
     table.read("gain", bump.gain, {.low = 0, .high = 16});
+    read_project(table, layer);
     read_weight(table, layer);
     layer.bump = bump;
 }

@@ -7,6 +7,12 @@ void read_normal_map(Table& table, Layer& layer) {
     read_texture_file(table, bump.texture);
     read_green(table, bump.texture);
     read_mapped(table, bump.texture, bump.uv);
+    table.choose("combine", bump.combine,
+                 {{"surface_gradient", Combine::surface_gradient},
+                  {"whiteout", Combine::whiteout},
+                  {"udn", Combine::udn},
+                  {"rnm", Combine::rnm},
+                  {"linear", Combine::linear}});
     read_weight(table, layer);
     layer.bump = bump;
 }
@@ -20,11 +26,10 @@ void read_height_map(Table& table, Layer& layer) {
     layer.bump = bump;
 }
 
-void read_triplanar(Table& table, Layer& layer) {
-    TriplanarLayer bump;
-    read_any_texture(table, bump.texture);
-    table.read("tile", bump.tile, positive);
-    table.read("sharpness", bump.sharpness, {.low = 0, .high = 1000, .low_is_allowed = false});
+void read_height_channel(Table& table, Layer& layer) {
+    HeightChannelLayer bump;
+    table.require("channel");
+    table.read("channel", bump.channel);
     read_weight(table, layer);
     layer.bump = bump;
 }

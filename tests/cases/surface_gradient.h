@@ -6,6 +6,31 @@
 
 namespace wrinkle::cases {
 
+/// Surface gradients of slopes along the screen, listing 6 with isDerivScreenSpace: golden rows, and footprints of any
+/// size and stretch.
+inline Cases screen_slope_cases() {
+    Cases c{.name = "listing06_scale_dependent, screen"};
+    const auto answer = [&](const SurfaceDerivatives& d, V2 dh) {
+        c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dh", dh);
+        c.out("g", reference::surface_gradient_from_screen_slope(normalize(d.n), d.dp_dx, d.dp_dy, dh));
+    };
+    const GoldenTable table = reference::golden("listing06_scale_dependent");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        add_golden_row(c, table, i, {}, table.text(i, "category") == "normal_in_tangent_plane" ? 20 : 1);
+        answer(golden_derivatives(table, i), table.vec2(i, "deriv"));
+    }
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        const SurfaceDerivatives d = random_derivatives(random);
+        const real size = random.magnitude(-3, 3) * length(d.dp_dx);
+        c.add("screen slopes, any footprint, seed " + std::to_string(seed), true);
+        answer(d, {static_cast<float>(random.uniform(-1, 1) * size), static_cast<float>(random.uniform(-1, 1) * size)});
+    }
+    c.add("screen slopes, parallel footprint", true);
+    answer({V{0, 0, 1}, V{1, 2, 0}, V{2, 4, 0}, {}}, {1, 1});
+    return c;
+}
+
 /// Slope times frame, listing 3.
 inline Cases tbn_cases() {
     Cases c{.name = "listing03_surfgrad_tbn"};

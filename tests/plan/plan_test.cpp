@@ -169,6 +169,21 @@ TEST(Plan, CryptomatteNamesBecomeTheirHashes) {
     EXPECT_TRUE(mentions(make_plan(scene_of({masked}), everything()), fmt::format("{}u", 0xbeefu)));
 }
 
+TEST(Plan, HeightsOfAChannelReadTheirNeighboursOnly) {
+    const Plan plan = make_plan(scene_of({layer(HeightChannelLayer{"dirt"})}), everything());
+    EXPECT_TRUE(plan.neighbours);
+    EXPECT_EQ(plan.inputs, (Names{"channel:dirt", "depth", "normal.x", "normal.y", "normal.z", "object"}));
+    expect_mentions(refusal(scene_of({layer(HeightChannelLayer{"dust"}, "wear")}), everything()),
+                    {"wear", "channel:dust"});
+}
+
+TEST(Plan, UnprojectedGradientsNeedNoProjection) {
+    Layer noise = layer(NoiseLayer{});
+    EXPECT_TRUE(mentions(make_plan(scene_of({noise}), everything()), "wr_surface_gradient_from_volume"));
+    noise.project = false;
+    EXPECT_FALSE(mentions(make_plan(scene_of({noise}), everything()), "wr_surface_gradient_from_volume"));
+}
+
 TEST(Plan, GroupsDecalsThatShareMaskAndSampling) {
     Layer masked = layer(decal(), "c");
     masked.mask.object = 3;

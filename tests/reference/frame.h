@@ -104,11 +104,31 @@ public:
         return TexDerivative<T>{*dx, *dy};
     }
 
+    /// Change of a height plane to the pixels right and below (or from left and above); nothing where there is none on
+    /// the pixel's surface. `base` as above.
+    std::optional<Vec2<T>> height_slope(std::size_t i, const Decoded<T>& here, const ScreenDerivative<T>& base,
+                                        const std::string& name) const {
+        const std::span<const float> h = plane(name);
+        if (!std::isfinite(h[i])) return std::nullopt;
+        const auto along = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
+            const bool first = index == 0, last = index + 1 == count;
+            const UvPixel<T> before = first ? UvPixel<T>{} : neighbour(i - stride);
+            const UvPixel<T> after = last ? UvPixel<T>{} : neighbour(i + stride);
+            return height_difference(uv_pixel(i, here), before, after, T(h[i]), T(first ? 0 : h[i - stride]),
+                                     T(last ? 0 : h[i + stride]), dp);
+        };
+        const std::optional<T> x = along(1, i % size_.width, size_.width, base.dp_dx);
+        const std::optional<T> y = along(size_.width, i / size_.width, size_.height, base.dp_dy);
+        if (!x || !y) return std::nullopt;
+        return Vec2<T>{*x, *y};
+    }
+
 private:
     UvPixel<T> uv_pixel(std::size_t i, const Decoded<T>& d) const {
         std::optional<float> object;
         if (!object_.empty()) object = object_[i];
-        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position, uv(i)};
+        const Vec2<T> at = has("uv.u") ? uv(i) : Vec2<T>{};
+        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position, at};
     }
 
     /// As a neighbour: a normal longer than 1e19 or shorter than 1e-19 is not compared with.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "tests/reference/lighting.h"
 #include "tests/reference/scene_textures.h"
@@ -14,7 +16,8 @@ struct Surfel {
     Vec<T> position;  ///< world
     Vec<T> normal;
     ScreenDerivative<T> d;
-    std::optional<TexCoord<T>> uv;  ///< the UV plane; nothing without plane or derivative
+    std::optional<TexCoord<T>> uv{};  ///< the UV plane; nothing without plane or derivative
+    std::function<std::optional<Vec2<T>>(const std::string&)> height_slope{};  ///< of a plane, per pixel
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.

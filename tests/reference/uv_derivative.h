@@ -16,17 +16,22 @@ struct UvPixel {
     Vec2<T> uv;
 };
 
+/// Whether j lies on the surface of i, along an axis of position derivative dp: no object, normal or depth break
+/// between them.
+template <class T>
+bool same_surface(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
+    const Vec<T> step = j.position - i.position;
+    return j.valid && i.object == j.object && dot(i.normal, j.normal) > T(1) / 2 && dot(step, step) <= 16 * dot(dp, dp);
+}
+
 /// uv[j] - uv[i] if j may be differenced with i along an axis of position derivative dp: no object, normal, depth or UV
 /// break between them.
 template <class T>
 std::optional<Vec2<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
-    const Vec<T> step = j.position - i.position;
     const Vec2<T> d = j.uv - i.uv;
     const T half = T(1) / 2;
-    const bool same_surface =
-        j.valid && i.object == j.object && dot(i.normal, j.normal) > half && dot(step, step) <= 16 * dot(dp, dp);
     const bool same_chart = std::abs(d.x) < half && std::abs(d.y) < half;
-    if (!same_surface || !same_chart) return std::nullopt;
+    if (!same_surface(i, j, dp) || !same_chart) return std::nullopt;
     return d;
 }
 
@@ -40,6 +45,16 @@ std::optional<Vec2<T>> combine_differences(std::optional<Vec2<T>> forward, std::
     if (f > 4 * b) return backward;
     if (b > 4 * f) return forward;
     return (*forward + *backward) * (T(1) / 2);
+}
+
+/// [Mik20 listing 7] Change of a height along an axis: to the next pixel, else, where that is not on the surface, from
+/// the one before.
+template <class T>
+std::optional<T> height_difference(const UvPixel<T>& here, const UvPixel<T>& before, const UvPixel<T>& after, T h,
+                                   T h_before, T h_after, Vec<T> dp) {
+    if (same_surface(here, after, dp) && std::isfinite(h_after - h)) return h_after - h;
+    if (same_surface(here, before, dp) && std::isfinite(h - h_before)) return h - h_before;
+    return std::nullopt;
 }
 
 /// d(u,v)/dx from dp/du and dp/dv: the least squares solution of dp_dx = a dp_du + b dp_dv; nothing where dp_du and

@@ -32,15 +32,19 @@ TEST_P(DataScene, AgreesWithTheReference) {
 // between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it.
 constexpr Bounds light{2e-7, 1e-5, 1e-4};
 INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
-                         testing::Values(SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
+                         testing::Values(SceneCase{"combine", {3e-6, 2e-4, 1e-3}, light},
+                                         SceneCase{"comparisons", {2e-5, 5e-4, 2e-3}, light},
+                                         SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
                                          SceneCase{"courtyard", {2e-6, 3e-4, 1e-3}, light},
                                          SceneCase{"decals", {3e-7, 2e-4, 1e-3}, light},
+                                         SceneCase{"height_channel", {1e-5, 1e-4, 1e-3}, light},
                                          SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light},
                                          SceneCase{"lighting", {3e-7, 3e-4, 1e-3}, {3e-7, 1e-5, 1e-4}},
                                          SceneCase{"noise", {2e-4, 2e-3, 4e-3}, {1e-6, 3e-5, 1.5e-4}},
                                          SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light},
                                          SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
-                                         SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light}),
+                                         SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light},
+                                         SceneCase{"triplanar_object", {3e-7, 4e-4, 1.5e-3}, light}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

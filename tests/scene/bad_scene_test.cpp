@@ -124,6 +124,22 @@ TEST_F(BadScene, NumbersOutOfRange) {
     expect_problem_with("[lighting]\nmax_ratio = 0.5\n", 6, {"must be at least 1"});
 }
 
+TEST_F(BadScene, WaysToCombineAndToCompare) {
+    const auto triplanar = [](const std::string& rest) {
+        return layer("kind = \"triplanar\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    expect_problem_with(layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\ncombine = \"rmn\"\n"), 8,
+                        {"is \"rmn\"; did you mean \"rnm\"?", "\"whiteout\""});
+    expect_problem_with(layer("kind = \"height_channel\"\n"), 5, {"needs the key \"channel\""});
+    expect_problem_with(height_map("project = false\n"), 8, {"does not belong to kind \"height_map\" but to"});
+    expect_problem_with(triplanar("mode = \"geiss\"\n"), 8, {"only with content = \"normal\""});
+    expect_problem_with(triplanar("mode = \"perlim\"\n"), 8, {"did you mean \"perlin\"?"});
+    expect_problem_with(triplanar("origin = [0, 0]\n"), 8, {"\"lower_left\", \"upper_left\""});
+    expect_problem_with(triplanar("transform = { scale = [1, 0, 1] }\n"), 8, {"from 1e-6 to 1e6"});
+    expect_problem_with(triplanar("transform = { rotation = [1, 0, 1] }\n"), 8,
+                        {"transform of [[layer]] \"triplanar 1\"", "translate, rotate, scale"});
+}
+
 TEST_F(BadScene, AxesThatSpanNoPlane) {
     expect_problem_with(decal("axis_x = [0, 2, 0]\n"), 9, {"\"axis_x\"", "parallel"});
     expect_problem_with(decal("axis_x = [0, 0, 0]\n"), 9, {"\"axis_x\"", "zero"});
