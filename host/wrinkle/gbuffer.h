@@ -40,7 +40,7 @@ struct Marked {
     static constexpr int back_facing = 2;  ///< the normal faced away and was reflected towards the viewer
     static constexpr int overflow = 8;     ///< a gradient too large for a float: the normal stays as it was
     static constexpr int no_uv_derivative =
-        4;  ///< a bare UV plane without a usable neighbour: its layers are zero here
+        4;  ///< a bare UV plane or a height without a usable neighbour: its layers are zero here
 };
 
 }  // namespace wrinkle

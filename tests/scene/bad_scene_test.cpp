@@ -42,7 +42,8 @@ TEST_F(BadScene, UnknownKeys) {
     EXPECT_EQ(
         problems(frame_ + "[[layer]]\nname = \"cobbles\"\nkind = \"constant\"\ngradient = [0, 0, 1]\nscael = 2\n"),
         std::vector<std::string>{"courtyard.toml:9: unknown key \"scael\" in [[layer]] \"cobbles\"; did you mean "
-                                 "\"scale\"? known keys: name, kind, gradient, scale, blend, footprint, mask"});
+                                 "\"scale\"? known keys: name, kind, gradient, project, scale, blend, "
+                                 "footprint, mask"});
     expect_problem_with("[outptu]\n", 5, {"\"outptu\"", "did you mean \"output\"?", "gbuffer, camera, layer"});
     expect_problem_with("[[layers]]\nkind = \"noise\"\n", 5, {"\"layers\" in the scene", "did you mean \"layer\"?"});
     expect_problem_with("[output]\nPNG = true\n", 6, {"unknown key \"PNG\" in [output]", "did you mean \"png\"?"});
