@@ -51,10 +51,10 @@ PreparedLayer LayerBuilder::layer(const Layer& in) {
     out.mask = mask(in.mask);
     std::visit(
         [&](const auto& kind) {
-            if constexpr (requires { this->bump(kind); })
+            if constexpr (requires { out.bump = bump(kind); })
                 out.bump = bump(kind);
             else
-                throw Error(std::string("baseline: it has no kind ") + kind.kind);
+                throw Unsupported("the plain C++ has no layers of kind " + std::string(kind.kind));
         },
         in.bump);
     return out;

@@ -8,6 +8,9 @@ namespace wrinkle::cli {
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 void add_explain(CLI::App& app);
+void add_eval(CLI::App& app);
+void add_figures(CLI::App& app);
 void add_devices(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace wrinkle::cli

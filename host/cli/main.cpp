@@ -19,7 +19,10 @@ int main(int argc, char** argv) {
         "  wrinkle run courtyard.toml -o out           evaluate a scene; writes out/normal.exr, out/lit.png ...\n"
         "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
-        "  wrinkle devices                             where it can run\n",
+        "  wrinkle eval resolve < in.csv > out.csv     one kernel function over rows of numbers (wrinkle eval --list)\n"
+        "  wrinkle figures data/figures/*.toml         pictures side by side that show what a layer does\n"
+        "  wrinkle devices                             where it can run\n"
+        "  wrinkle bench --report out/bench            how fast and how wrong\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
     app.require_subcommand(0, 1);  // none at all is refused below, after arguments that mean nothing
@@ -27,10 +30,14 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_run(app);
     wrinkle::cli::add_info(app);
     wrinkle::cli::add_explain(app);
+    wrinkle::cli::add_eval(app);
+    wrinkle::cli::add_figures(app);
     wrinkle::cli::add_devices(app);
+    wrinkle::cli::add_bench(app);
     try {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty()) throw CLI::RequiredError("A command (run, info, explain or devices)");
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError("A command (run, info, explain, eval, figures, devices or bench)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());

@@ -37,25 +37,6 @@ Count numbers_of(Kind kind) {
     }
 }
 
-const char* wanted_text(Kind kind) {
-    switch (kind) {
-        case Kind::number:
-            return "a number";
-        case Kind::vector:
-            return "3 numbers";
-        case Kind::camera:
-            return "a camera and the frame's size";
-        case Kind::height_texture:
-        case Kind::slope_texture:
-            return "an image file";
-        case Kind::projector:
-            return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
-        case Kind::lattice:
-            return "2 numbers, the frequency of the first octave and the lacunarity";
-    }
-    return "";
-}
-
 template <class Struct>
 void append(std::vector<double>& to, const Struct& from) {
     const auto* numbers = reinterpret_cast<const double*>(&from);
@@ -76,6 +57,25 @@ void append_lattice(std::vector<double>& to, double frequency, double lacunarity
 }
 
 }  // namespace
+
+const char* wanted_text(Setting::Kind kind) {
+    switch (kind) {
+        case Kind::number:
+            return "a number";
+        case Kind::vector:
+            return "3 numbers";
+        case Kind::camera:
+            return "a camera and the frame's size";
+        case Kind::height_texture:
+        case Kind::slope_texture:
+            return "an image file";
+        case Kind::projector:
+            return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
+        case Kind::lattice:
+            return "2 numbers, the frequency of the first octave and the lacunarity";
+    }
+    return "";
+}
 
 SettingSize size_of(const Setting& setting) {
     switch (setting.kind) {

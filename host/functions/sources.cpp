@@ -9,7 +9,6 @@ using enum Precision;
 std::vector<Function> source_functions() {
     const Parameter st = pair("st", "1", "texture coordinates, t up"), lod = number("lod", "1", "mip level");
     const Result texel_slope = result(pair("slope", "heights per texel", "dh/ds, dh/dt"), {absolute});
-    const Parameter lattice_point = vector("p", "lattice cells", "point, up to 2^22 cells from the origin");
     const Parameter box_point = vector("p", "metres, world, relative to the eye", "surface point");
     const Setting box{"decal", Setting::Kind::projector, "the decal's box, in the same space"};
     return {
@@ -21,6 +20,23 @@ std::vector<Function> source_functions() {
          .results = {result(pair("slope", "1", "dh/du, dh/dv, t up"), {relative})},
          .variants = {{standard, "slope = wr_tangent_normal_slope(m);", {2e-7}}},
          .note = "0 for m = 0."},
+        {.name = "tangent_normal_slope_xy",
+         .file = "sources/normal_map.clh",
+         .summary = "The same of a unit normal whose third component was not stored",
+         .source = "Mikkelsen 2020, eq. 16",
+         .parameters = {pair("m", "tangent space", "first two components of a unit normal")},
+         .results = {result(pair("slope", "1", "dh/du, dh/dv, t up"), {relative})},
+         .variants = {{standard, "slope = wr_tangent_normal_slope(m);", {5e-7}}},
+         .note = "Longer than 1: as steep as slopes get."},
+        {.name = "texture_metres",
+         .file = "sources/derivative_map.clh",
+         .summary = "Metres of surface that a unit of texture coordinate covers, for an automatic bump scale",
+         .source = "Mikkelsen 2011, derivative maps, per pixel instead of per mesh",
+         .parameters = {dp_dx, dp_dy, dst_dx, dst_dy},
+         .results = {result(number("metres", "metres per unit s, t", "side of the square of the same area"),
+                            {relative})},
+         .variants = {{standard, "metres = wr_texture_metres(dp_dx, dp_dy, dst_dx, dst_dy);", {5e-7}}},
+         .note = "0 where the coordinates or the position do not change in two directions; 3e38 at most."},
         {.name = "height_slope_plain",
          .file = "sources/height_map.clh",
          .summary = "Slopes of a height map by forward differences at least a texel apart, repeated",
@@ -53,10 +69,11 @@ std::vector<Function> source_functions() {
          .source = "Mikkelsen 2020, listing 7",
          .parameters = {st, dst_dx, dst_dy, lod},
          .settings = {{"heights", Setting::Kind::height_texture, "the height map"}},
-         .results = {result(pair("dh", "heights per pixel", "change to the right, downwards"), {absolute})},
-         .variants = {{standard, "dh = wr_height_taps(heights, st, dst_dx, dst_dy, lod);", {3e-5}}},
+         .results = {result(pair("dh_dxy", "heights per pixel", "change to the right, downwards"), {absolute})},
+         .variants = {{standard, "dh_dxy = wr_height_taps(heights, st, dst_dx, dst_dy, lod);", {3e-5}}},
          .fp64_error = 1e-6,
-         .note = "As many times that as texels the pixel spans, at most once; down to footprints of 1e-9."},
+         .note = "As many times that as texels the pixel spans, at most once; down to footprints of 1e-9, at tilings "
+                 "up to 1e5."},
         {.name = "triplanar_weights",
          .file = "sources/triplanar.clh",
          .summary = "Weights of three planar projections; they sum to 1",
@@ -84,7 +101,7 @@ std::vector<Function> source_functions() {
          .results = {result(surface_gradient, {absolute})},
          .variants = {{standard, "g = wr_triplanar_normals(n, w, x_normal, y_normal, z_normal);", {1e-6}}},
          .note = "As many times that as the largest of the three gradients and its square. A normal that faces away "
-                 "perturbs towards itself; one within the surface gives at most 1e30."},
+                 "perturbs towards itself; one within the surface gives about 1e18."},
         {.name = "normal_offset",
          .file = "sources/triplanar.clh",
          .summary = "Minus x and y of the tangent-space normal of a slope: what Geiss adds up; to compare with",
@@ -132,16 +149,6 @@ std::vector<Function> source_functions() {
          .settings = {box},
          .results = {result(vector("dh_dp", "1, world", "volume gradient"), {relative})},
          .variants = {{standard, "dh_dp = wr_decal_gradient(decal, slope, weight);", {4e-7}}}},
-        {.name = "perlin_noise",
-         .file = "sources/noise.clh",
-         .summary = "Perlin's improved noise and its exact gradient; period 256",
-         .source = "Perlin 2002",
-         .parameters = {lattice_point},
-         .results = {result(number("value", "1", "noise, within +-1.04"), {absolute}),
-                     result(vector("gradient", "per cell", "its gradient"), {absolute})},
-         .variants = {{standard,
-                       "wr_noise_value v = wr_perlin_noise(p);\nvalue = v.value, gradient = v.gradient;",
-                       {1e-6, 3e-6}}}},
     };
 }
 

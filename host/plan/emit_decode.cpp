@@ -104,27 +104,44 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
     return text;
 }
 
-/// How a section asks for its neighbours.
-struct NeighbourText {
-    std::string object;     // the pixel's own object index
-    std::string beside[2];  // the neighbours before and after along x and y, as arguments
-};
-
-/// `values` are the two planes that a neighbour brings with it. The pixel's place is `here`, a row is `row` long.
-NeighbourText neighbour_text(Emitter& emitter, const GeometryText& geometry, Section& section,
-                             const std::string& values) {
+/// Kernel text that declares the pixel as `self`, with text that is its texture coordinates and its validity, and calls
+/// `use` for each image axis with the texts of the neighbours before and after it. `values` are the two planes that a
+/// neighbour has as its coordinates.
+template <class Use>
+std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section, const std::string& values,
+                            const std::string& uv, const std::string& valid, const Use& use) {
     const bool object = emitter.has("object");
     if (object) section.inputs.insert("object");
-    if (emitter.helpers.empty()) emitter.helpers = neighbour_helper(geometry, object);
+    if (!emitter.plan.neighbours) emitter.helpers += neighbour_helper(geometry, object);
     emitter.plan.neighbours = true;
     const std::string planes = neighbour_planes(geometry, object, false) + ", " + values;
-    const auto neighbour = [&](const char* place) {
-        return fmt::format("\n            wr_neighbour_at(frame, {}{})", place, planes);
-    };
-    return {object ? "wr_load(in_object, at.in)" : "0",
-            {neighbour("here - 1, in_pixels, at.x - 1, at.y") + "," + neighbour("here + 1, in_pixels, at.x + 1, at.y"),
-             neighbour("here - row, in_pixels, at.x, at.y - 1") + "," +
-                 neighbour("here + row, in_pixels, at.x, at.y + 1")}};
+    std::string text = fmt::format(
+        "        long here = at.in, row = width;\n"
+        "        wr_neighbour self = {{{}, p, unturned, {}, {}}};\n",
+        uv, object ? "wr_load(in_object, at.in)" : "0", valid);
+    const struct {
+        const char *before, *after, *name;
+    } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y", "here + 1, in_pixels, at.x + 1, at.y", "dx"},
+                {"here - row, in_pixels, at.x, at.y - 1", "here + row, in_pixels, at.x, at.y + 1", "dy"}};
+    for (const auto& axis : axes)
+        text += use(axis.name, fmt::format("wr_neighbour_at(frame, {}{})", axis.before, planes),
+                    fmt::format("wr_neighbour_at(frame, {}{})", axis.after, planes));
+    return text;
+}
+
+/// Sets dn_dx and dn_dy. No use of coordinates: the compiler drops what is loaded for them.
+std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
+    section.operations += 200;
+    return "        {\n" +
+           neighbours_text(emitter, geometry, section, "in_normal_x, in_normal_x", "wr_v2((real)(0), (real)(0))",
+                           "valid",
+                           [](const char* axis, const std::string& before, const std::string& after) {
+                               return fmt::format(
+                                   "        dn_{0} = wr_normal_difference(self, {1},\n"
+                                   "                                     {2}, dp_{0});\n",
+                                   axis, before, after);
+                           }) +
+           "        }\n";
 }
 
 /// Sets uv and uv_valid, from the best the G-buffer has.
@@ -168,15 +185,14 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        const NeighbourText taps = neighbour_text(emitter, geometry, section, "in_uv_u, in_uv_v");
-        text +=
-            "        long here = at.in, row = width;\n"
-            "        mask usable = uv_valid;\n"
-            "        wr_neighbour self = {wr_v2(wr_real(u), wr_real(v)), p, unturned, " +
-            taps.object + ", uv_valid};\n";
-        for (int axis = 0; axis < 2; ++axis)
-            text += fmt::format("        uv.{0} = wr_texcoord_difference(self, {1}, dp_{0}, &usable);\n",
-                                axis == 0 ? "dx" : "dy", taps.beside[axis]);
+        text += "        mask usable = uv_valid;\n" +
+                neighbours_text(emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))",
+                                "uv_valid", [](const char* axis, const std::string& before, const std::string& after) {
+                                    return fmt::format(
+                                        "        uv.{0} = wr_texcoord_difference(self, {1},\n"
+                                        "                                       {2}, dp_{0}, &usable);\n",
+                                        axis, before, after);
+                                });
         text += "        uv_valid = usable;\n";
         section.operations += 260;
     }
@@ -186,6 +202,32 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
         "        uv.dx = wr_select(uv_valid, uv.dx, wr_v2((real)(0), (real)(0)));\n"
         "        uv.dy = wr_select(uv_valid, uv.dy, wr_v2((real)(0), (real)(0)));\n";
     return text;
+}
+
+/// Sets vertex_tb and vertex_tb_valid from the planes of the renderer's tangents.
+std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
+    std::string text = "        vertex_tb_valid = valid;\n";
+    const auto load = [&](const std::string& plane, const std::string& name) {
+        section.inputs.insert(plane);
+        text += fmt::format(
+            "        floats {0} = wr_load_floats({1}, at.in);\n"
+            "        vertex_tb_valid = vertex_tb_valid & wr_finite({0});\n",
+            name, identifier(plane));
+    };
+    const bool sign = emitter.has("tangent_sign");
+    for (const char axis : {'x', 'y', 'z'}) load(fmt::format("tangent.{}", axis), fmt::format("t{}", axis));
+    if (sign) load("tangent_sign", "sign");
+    for (const char axis : {'x', 'y', 'z'})
+        if (!sign) load(fmt::format("bitangent.{}", axis), fmt::format("b{}", axis));
+    const auto vector = [](char name) {
+        return fmt::format("wr_select(vertex_tb_valid, wr_v3(wr_real({0}x), wr_real({0}y), wr_real({0}z)), wr_zero3())",
+                           name);
+    };
+    section.operations += 60;
+    return text + fmt::format(
+                      "        vertex_tb = wr_vertex_frame({},\n            {},\n            {});\n"
+                      "        marked += (valid & !vertex_tb_valid & (marked < 4)) ? (real)(4) : (real)(0);\n",
+                      vector('n'), vector('t'), sign ? "wr_real(sign)" : vector('b'));
 }
 
 }  // namespace
@@ -208,27 +250,33 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
     const GeometryText geometry = geometry_text(emitter);
     section.inputs.insert(geometry.planes.begin(), geometry.planes.end());
     section.inputs.insert({"normal.x", "normal.y", "normal.z", plane});
-    section.reads.insert({"valid", "marked", "p"});
+    section.reads.insert({"valid", "marked"});
     section.writes.insert("marked");
     section.operations += 300;
     const std::string height = identifier(plane);
-    const NeighbourText taps = neighbour_text(emitter, geometry, section, height + ", " + height);
-    // What belongs to a surface is asked of the base normal, whatever stage this is.
-    return "        vec2 dh;\n        {\n" + load_normal("wr_load_floats({}, at.in)", "        ") +
+    const std::string differences =
+        neighbours_text(emitter, geometry, section, height + ", " + height, "wr_v2(wr_real(height), (real)(0))",
+                        "usable", [](const char* axis, const std::string& before, const std::string& after) {
+                            return fmt::format(
+                                "        dh.{1} = wr_height_difference(self, {2},\n"
+                                "                                     {3}, step_{0}, &usable);\n",
+                                axis, axis[1], before, after);
+                        });
+    // What belongs to a surface is asked of the frame's own positions and normals, whatever stage this is.
+    return "        vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
+           sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
+           load_normal("wr_load_floats({}, at.in)", "        ") +
            "        vec3 unturned = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), n));\n"
-           "        vec3 step_x, step_y;\n        {\n        vec3 n = unturned, dp_dx, dp_dy;\n" +
+           "        vec3 step_dx, step_dy;\n        {\n        vec3 n = unturned, dp_dx, dp_dy;\n" +
            face_viewer_text(emitter) + derivative_text(emitter) +
-           "        step_x = dp_dx, step_y = dp_dy;\n        }\n        long here = at.in, row = width;\n" +
+           "        step_dx = dp_dx, step_dy = dp_dy;\n        }\n" +
            fmt::format(
                "        floats height = wr_load_floats({}, at.in);\n"
-               "        mask usable = active & wr_finite(height);\n"
-               "        wr_neighbour self = {{wr_v2(wr_real(height), (real)(0)), p, unturned, {}, usable}};\n"
-               "        dh.x = wr_height_difference(self, {}, step_x, &usable);\n"
-               "        dh.y = wr_height_difference(self, {}, step_y, &usable);\n"
+               "        mask usable = active & wr_finite(height);\n{}"
                "        dh = wr_select(usable, dh, wr_v2((real)(0), (real)(0)));\n"
                "        real low_bits = marked - 8 * wr_floor(marked / 8);\n"
                "        marked += (active & !usable & (low_bits < 4)) ? (real)(4) : (real)(0);\n        }}\n",
-               height, taps.object, taps.beside[0], taps.beside[1]);
+               height, differences);
 }
 
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
@@ -274,6 +322,14 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     if (wanted.contains("uv")) {
         text += emit_uv(emitter, geometry, section);
         section.writes.insert({"uv", "uv_valid"});
+    }
+    if (wanted.contains("vertex_tb")) {
+        text += emit_vertex_frame(emitter, section);
+        section.writes.insert({"vertex_tb", "vertex_tb_valid"});
+    }
+    if (wanted.contains("dn_dx")) {
+        text += emit_turning(emitter, geometry, section);
+        section.writes.insert({"dn_dx", "dn_dy"});
     }
     return section;
 }

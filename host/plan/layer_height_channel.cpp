@@ -12,7 +12,7 @@ std::string emit(LayerText& at, const HeightChannelLayer& l) {
     at.section.writes.insert("g");
     at.section.operations += 70;
     return text + fmt::format(
-                      "        vec3 bump = wr_surface_gradient_from_screen(n, dp_dx, dp_dy, dh);\n"
+                      "        vec3 bump = wr_surface_gradient_from_screen_slope(n, dp_dx, dp_dy, dh);\n"
                       "        g = wr_fma(bump, m * {}, g);\n",
                       at.strength());
 }

@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plan/layer_text.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
+
 constexpr double kFrame = 70, kScaleDependent = 85, kCombine = 90;  // expected operations
 
 const char* combine_function(Combine combine) {
@@ -19,22 +23,52 @@ const char* combine_function(Combine combine) {
             return "wr_combine_rnm";
     }
 }
+
+/// Whether the layer goes by the planes of the renderer's tangents. They belong to the UV pass: its scale and offset do
+/// not turn them, a rotation would.
+bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
+    const Emitter& emitter = at.emitter;
+    const std::vector<std::string> tangent{"tangent.x", "tangent.y", "tangent.z"};
+    const bool fits = l.uv.source == UvSource::aov && l.uv.rotation == 0;
+    if (l.frame == TangentSource::planes) {
+        if (!fits)
+            throw Error(at.who +
+                        ": frame = \"tangents\" belongs to the UV pass as it is, without rotation; use \"derived\"");
+        emitter.need(at.who, tangent);
+        if (!emitter.has("tangent_sign"))
+            emitter.need(at.who + " (without tangent_sign)", {"bitangent.x", "bitangent.y", "bitangent.z"});
+        return true;
+    }
+    return l.frame == TangentSource::automatic && fits &&
+           std::ranges::all_of(tangent, [&](const auto& plane) { return emitter.has(plane); }) &&
+           (emitter.has("tangent_sign") || emitter.has("bitangent.z"));
+}
 }  // namespace
 
 std::string emit(LayerText& at, const NormalMapLayer& l) {
     std::string text = at.textured(l.texture, l.uv);
-    at.section.operations += kFrame;
-    text += "        wr_frame_tb f = wr_tangent_frame(n, dp_dx, dp_dy, c.dx, c.dy);\n";
+    const bool planes = vertex_frame(at, l);
+    if (planes) {
+        at.section.reads.insert({"vertex_tb", "vertex_tb_valid"});
+        for (const std::size_t i : {0u, 1u})  // a mirrored texture
+            if (l.uv.scale[i] < 0) text += fmt::format("        slope.{0} = -slope.{0};\n", i == 0 ? 'x' : 'y');
+        text += "        m = vertex_tb_valid ? m : (real)(0);\n";
+        at.section.operations += 8;
+    } else {
+        text += "        wr_frame_tb f = wr_tangent_frame(n, dp_dx, dp_dy, c.dx, c.dy);\n";
+        at.section.operations += kFrame;
+    }
+    const char* frame = planes ? "vertex_tb" : "f";
     if (l.combine == Combine::surface_gradient)
-        return text +
-               fmt::format("        g = wr_fma(wr_surface_gradient_from_tbn(slope, f), m * {}, g);\n", at.strength());
+        return text + fmt::format("        g = wr_fma(wr_surface_gradient_from_tbn(slope, {}), m * {}, g);\n", frame,
+                                  at.strength());
     at.section.operations += kCombine;
     at.section.reads.insert("dh_dp");
     return text + fmt::format(
                       "        vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
-                      "        vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, f), (real)({}));\n"
+                      "        vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (real)({}));\n"
                       "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
-                      at.strength(), combine_function(l.combine));
+                      frame, at.strength(), combine_function(l.combine));
 }
 
 std::string emit(LayerText& at, const HeightMapLayer& l) {

@@ -38,17 +38,23 @@ struct PlanOptions {
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
 };
 
-/// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period) when that is
+/// Periods of three numbers: the same for all, or one each; 0 for none.
+struct Periods : Vec3 {
+    constexpr Periods(double all = 0) : Vec3{all, all, all} {}
+    constexpr explicit Periods(const Vec3& each) : Vec3(each) {}
+};
+
+/// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period_k) when that is
 /// set.
 struct Origin {
     std::array<Vec3, 3> axes{};
     Vec3 offset{};
-    double period = 0;
+    Periods period = 0;
     double fourth = 0;  ///< a number that travels with them: the frequency of an octave
 };
 
 /// A texture as kernels sample it.
-enum class TexelKind { slope, height, mask };
+enum class TexelKind { slope, height, mask, vector };
 struct PlannedTexture {
     TextureUse use;
     TexelKind kind = TexelKind::slope;

@@ -66,19 +66,33 @@ Image slopes_of_normals(const Image& image, bool y_down) {
     return slopes;
 }
 
-/// Appends a level with its border of one texel.
+/// The t slopes change their sign.
+Image turned_down(Image slopes) {
+    for (std::size_t i = 1; i < slopes.texels.size(); i += 2) slopes.texels[i] = -slopes.texels[i];
+    return slopes;
+}
+
+/// Appends a level with its border of one texel. Three channels take four floats, so that a texel is one load.
 void append(TextureHeap& heap, const Image& level, Wrap wrap) {
     for (int y = -1; y <= level.height; ++y)
-        for (int x = -1; x <= level.width; ++x)
+        for (int x = -1; x <= level.width; ++x) {
             for (int c = 0; c < level.channels; ++c)
                 heap.texels.push_back(level.at(wrapped(x, level.width, wrap), wrapped(y, level.height, wrap), c));
+            if (level.channels == 3) heap.texels.push_back(0);
+        }
+}
+
+/// The finest level as it is filtered.
+Image finest_level(const Image& image, const TextureUse& use) {
+    if (use.content == Content::normal) return slopes_of_normals(image, use.y_down);
+    return use.content == Content::slope && use.y_down ? turned_down(image) : image;
 }
 
 }  // namespace
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
-    const bool slopes = planned.kind == TexelKind::slope, normals = slopes && planned.use.content == Content::normal;
-    Image level = normals ? slopes_of_normals(image, planned.use.y_down) : image;
+    const bool sobel = planned.kind == TexelKind::slope && planned.use.content == Content::height;
+    Image level = finest_level(image, planned.use);
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -86,7 +100,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        if (slopes && !normals)
+        if (sobel)
             append_slopes(heap, level, planned.use.wrap);
         else
             append(heap, level, planned.use.wrap);
@@ -103,10 +117,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
-    for (const PlannedTexture& texture : planned) {
-        const bool normals = texture.kind == TexelKind::slope && texture.use.content == Content::normal;
-        add_texture(heap, load_texture(texture.use.file, normals ? ImageUse::normal : ImageUse::scalar), texture);
-    }
+    for (const PlannedTexture& texture : planned) add_texture(heap, load_bump(texture.use), texture);
     heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
     return heap;
 }

@@ -5,6 +5,8 @@
 /// What the readers of the layer kinds share.
 namespace wrinkle::scene {
 
+/// footprint, mask
+void read_place(Table& table, Layer& layer);
 /// scale, blend, footprint, mask
 void read_weight(Table& table, Layer& layer);
 /// project: for kinds that are gradients in space
@@ -24,8 +26,11 @@ void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
 void read_normal_map(Table& table, Layer& layer);
 void read_height_map(Table& table, Layer& layer);
 void read_height_channel(Table& table, Layer& layer);
+void read_object_normal(Table& table, Layer& layer);
+void read_derivative_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);
+void read_parallax(Table& table, Layer& layer);
 
 }  // namespace wrinkle::scene

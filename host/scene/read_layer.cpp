@@ -26,7 +26,10 @@ constexpr Kind<Layer> kinds[] = {
     {NoiseLayer::kind, read_noise},
     {DecalLayer::kind, read_decal},
     {ConstantLayer::kind, read_constant},
+    {ParallaxLayer::kind, read_parallax},
     {ResolveLayer::kind, read_resolve},
+    {ObjectNormalLayer::kind, read_object_normal},
+    {DerivativeMapLayer::kind, read_derivative_map},
 };
 
 }  // namespace

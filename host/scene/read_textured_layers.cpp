@@ -13,6 +13,12 @@ void read_normal_map(Table& table, Layer& layer) {
                   {"udn", Combine::udn},
                   {"rnm", Combine::rnm},
                   {"linear", Combine::linear}});
+    table.choose(
+        "frame", bump.frame,
+        {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"tangents", TangentSource::planes}});
+    if (bump.frame == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
+        table.complain("frame",
+                       "is \"tangents\", which belongs to the UV pass as it is: uv must not be planar or turn");
     read_weight(table, layer);
     layer.bump = bump;
 }
@@ -30,6 +36,19 @@ void read_height_channel(Table& table, Layer& layer) {
     HeightChannelLayer bump;
     table.require("channel");
     table.read("channel", bump.channel);
+    read_weight(table, layer);
+    layer.bump = bump;
+}
+
+void read_derivative_map(Table& table, Layer& layer) {
+    DerivativeMapLayer bump;
+    read_texture_file(table, bump.texture);
+    read_green(table, bump.texture);
+    table.choose("encoding", bump.texture.encoding,
+                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
+    table.choose("slopes", bump.texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
+    table.choose("bump_scale", bump.auto_scale, {{"metres", false}, {"auto", true}});
+    read_mapped(table, bump.texture, bump.uv);
     read_weight(table, layer);
     layer.bump = bump;
 }

@@ -67,12 +67,15 @@ struct Setting {
 /// fast: native functions or less compensation, with its own error; standard: what scenes use; exact: compensated
 /// further; fp64: everything in double.
 enum class Precision { fast, standard, exact, fp64 };
+/// "fast", "standard", "exact", "double".
+std::string precision_name(Precision precision);
 
 /// A way to compute the same results.
 struct FunctionVariant {
     Precision precision = Precision::standard;
     std::string text;                ///< kernel text: parameters and settings by name are read, results by name are set
     std::vector<double> max_errors;  ///< documented, of each measure of each result, in their order
+    bool everywhere = false;         ///< they hold even where `note` allows more
 };
 
 struct Function {
@@ -85,6 +88,7 @@ struct Function {
     std::vector<Result> results{};
     std::vector<FunctionVariant> variants{};  ///< from fast to exact; standard is always there
     double fp64_error = 1e-9;                 ///< largest error of a run in double, by any measure
+    double operations = 0;                    ///< floating-point operations per row, an fma being two; 0: not counted
     std::string note{};                       ///< where the error may be larger, what degenerate input gives
 
     /// The variant that serves `wanted`: itself, else the next more accurate, else the most accurate one.

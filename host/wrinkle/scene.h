@@ -24,16 +24,22 @@ namespace wrinkle {
 
 // --- Textures ------------------------------------------------------------------------------------------------------
 
-enum class Content { height, normal };  ///< what the texels mean: height in [0,1] units of `scale`, or a tangent normal
-enum class Upscale { plain, smooth };   ///< [Mik20 listing 16] isUpscaleHQ false or true
+/// What the texels mean: heights in units of `scale`; tangent-space normals; slopes dh/du, dh/dv; normals in object or
+/// world space.
+enum class Content { height, normal, slope, object_normal };
+enum class Upscale { plain, smooth };  ///< [Mik20 listing 16] isUpscaleHQ false or true
 enum class Wrap { repeat, clamp };
+enum class Encoding { automatic, sign, unit };  ///< slopes as they are, or 2 texel - 1; automatic: by the file's format
+enum class SlopeUnit { texel, texture };        ///< what a slope of 1 rises over
 
 struct TextureUse {
     std::filesystem::path file{};
     Content content = Content::height;
     Upscale upscale = Upscale::smooth;
     Wrap wrap = Wrap::repeat;
-    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals only
+    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals and slopes
+    Encoding encoding = Encoding::automatic;  ///< slopes only
+    SlopeUnit unit = SlopeUnit::texel;        ///< slopes only
 };
 
 // --- Texture coordinates -------------------------------------------------------------------------------------------
@@ -66,6 +72,10 @@ struct Mask {
 
 // --- Layers --------------------------------------------------------------------------------------------------------
 
+/// Where tangent and bitangent come from: the G-buffer's planes, as the renderer interpolated them (mikkTSpace), or the
+/// derivatives of the texture coordinates; automatic takes the planes where they are there and fit the mapping.
+enum class TangentSource { automatic, derived, planes };
+
 /// How a bump joins those below it in its stage. Surface gradients add up; the others are what other programs do
 /// [Mik20 4.2], across any unwraps.
 enum class Combine { surface_gradient, whiteout, udn, rnm, linear };
@@ -75,7 +85,26 @@ struct NormalMapLayer {
     static constexpr const char* kind = "normal_map";
     TextureUse texture{.content = Content::normal};
     UvMapping uv{};
+    TangentSource frame = TangentSource::automatic;
     Combine combine = Combine::surface_gradient;
+};
+
+/// Normals in object or world space, as a bake of the whole surface gives them [Mik20 3.4].
+struct ObjectNormalLayer {
+    static constexpr const char* kind = "object_normal";
+    TextureUse texture{.content = Content::object_normal};
+    UvMapping uv{};
+    std::array<Vec3, 3> channels{
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< where red, green and blue point, in object space
+    std::array<Vec3, 3> object_to_world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows; may scale and mirror
+};
+
+/// Slopes of a height, scale dependent [Mikkelsen 2011, derivative maps].
+struct DerivativeMapLayer {
+    static constexpr const char* kind = "derivative_map";
+    TextureUse texture{.content = Content::slope};
+    UvMapping uv{};
+    bool auto_scale = false;  ///< a height of 1 is as much as the pixel's texel is wide, instead of a metre
 };
 
 /// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].
@@ -117,12 +146,33 @@ struct TriplanarLayer {
     Placement transform{};  ///< tile is in the object's units; heights are in metres all the same
 };
 
-/// Perlin 2002 gradient noise, a fractal sum: sum of gain^i noise(frequency lacunarity^i p), world space.
+enum class NoiseType { perlin, perlin1985, simplex, worley };
+enum class CellFeature { f1, f2, f2_f1 };  ///< distance to the nearest point, to the second nearest, their difference
+enum class FractalKind { sum, turbulence, ridged };
+enum class NoiseGradient { analytic, forward, central };  ///< exact, or by differences of values, to compare
+
+/// What is composed with noise f: first the remap, then one of the others at most.
+struct NoiseShape {
+    std::optional<std::array<double, 2>> remap;       ///< brings the first to 0 and the second to 1
+    std::optional<double> power;                      ///< f^power, 1 at least; 0 for f below 0
+    std::optional<std::array<double, 2>> smoothstep;  ///< from 0 at the first to 1 at the second
+    std::optional<double> bias;                       ///< what 1/2 becomes, in (0,1); f in [0,1]
+};
+
+/// Noise in world space, a fractal of octaves gain^i noise(frequency lacunarity^i p).
 struct NoiseLayer {
     static constexpr const char* kind = "noise";
     double frequency = 1;  ///< lattice cells per metre of the first octave
     int octaves = 1;       ///< at most; those above the footprint's Nyquist frequency are not evaluated
     double lacunarity = 2, gain = 0.5;
+    NoiseType type = NoiseType::perlin;
+    CellFeature feature = CellFeature::f1;  ///< worley
+    FractalKind fractal = FractalKind::sum;
+    double offset = 1, feedback = 2;        ///< ridged: height of the ridges; weight of an octave on the next
+    std::array<double, 3> period{0, 0, 0};  ///< simplex: whole cells of the first octave at which an axis repeats, or 0
+    double rotation = 0;                    ///< simplex: radians by which gradients are turned, flow noise
+    NoiseGradient gradient = NoiseGradient::analytic;
+    NoiseShape shape{};
 };
 
 /// Oriented box projector [Mik20 4.5]. The image spans the box's x and y; it is projected along z.
@@ -142,6 +192,20 @@ struct ConstantLayer {
     Vec3 gradient{};
 };
 
+enum class ParallaxMode { offset, march };  ///< one step [Welsh 2004], or a search for where the ray meets the heights
+
+/// Moves the point that later layers see along the ray, to a height field over the surface [Mik20 4.3]. It bumps
+/// nothing itself. `scale` is the depth: metres for a height of 1.
+struct ParallaxLayer {
+    static constexpr const char* kind = "parallax";
+    TextureUse texture{};
+    UvMapping uv{};
+    ParallaxMode mode = ParallaxMode::march;
+    int steps = 32, refine = 3;  ///< of the march
+    double level = 0;            ///< the height that lies on the surface: 0 raises, 1 carves
+    bool curved = false;         ///< move the normal as well, by those of the neighbours
+};
+
 /// Normalise here and start a new stage on the resolved normal [Mik20 4.6].
 struct ResolveLayer {
     static constexpr const char* kind = "resolve";
@@ -153,7 +217,7 @@ struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
     std::variant<NormalMapLayer, HeightMapLayer, HeightChannelLayer, TriplanarLayer, NoiseLayer, DecalLayer,
-                 ConstantLayer, ResolveLayer>
+                 ConstantLayer, ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

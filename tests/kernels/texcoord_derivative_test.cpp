@@ -19,16 +19,17 @@ TEST(TexcoordDerivative, DifferenceOfNeighbours) {
 }
 
 TEST(HeightDerivative, DifferenceOfNeighbours) {
-    check(cases::height_neighbour_cases(),
-          "wr_neighbour here = {wr_v2(here_height, here_height), wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3,\n"
-          "                     here_valid != 0};\n"
-          "wr_neighbour before = {wr_v2(before_height, before_height), beforeP, beforeN, before_object,\n"
-          "                       before_valid != 0};\n"
-          "wr_neighbour after = {wr_v2(after_height, after_height), afterP, afterN, after_object, after_valid != 0};\n"
-          "mask usable = dp.x == dp.x;\n"
-          "real d = wr_height_difference(here, before, after, dp, &usable);",
-          {{"difference", {"d"}, ErrorMeasure::absolute, 3e-7, 3e-7},
-           {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
+    check(
+        cases::height_neighbour_cases(),
+        "wr_neighbour here = {wr_v2(here_height, here_height), wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3,\n"
+        "                     here_valid != 0};\n"
+        "wr_neighbour before = {wr_v2(before_height, before_height), beforeP, beforeN, before_object,\n"
+        "                       before_valid != 0};\n"
+        "wr_neighbour after = {wr_v2(after_height, after_height), afterP, afterN, after_object, after_valid != 0};\n"
+        "mask usable = dp.x == dp.x;\n"
+        "real d = wr_height_difference(here, before, after, dp, &usable);",
+        {{"difference", {"d"}, ErrorMeasure::absolute, 3e-7, 3e-7},
+         {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
 TEST(TexcoordDerivative, LinearMaps) {

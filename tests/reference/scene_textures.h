@@ -32,10 +32,16 @@ struct LayerTexture {
         const Level<T>& top = pyramid->levels.front();
         return footprint ? level_of_detail(d, top.width, top.height, static_cast<int>(pyramid->levels.size())) : T(0);
     }
-    /// Height: dh per unit s and t. Normal: the unitless slope.
+    /// Vector of an object-space normal map.
+    Vec<T> vector(const TexCoord<T>& at, bool footprint) const {
+        const T level = lod(at.d, footprint);
+        const auto part = [&](int k) { return sample(*pyramid, k, at.st, level, wrap); };
+        return {part(0), part(1), part(2)};
+    }
+    /// Height and slope maps: dh per unit s and t. Normal: the unitless slope.
     Vec2<T> slope(const TexCoord<T>& at, bool footprint) const {
         const T level = lod(at.d, footprint);
-        if (content == Content::normal)
+        if (content != Content::height)
             return {sample(*pyramid, 0, at.st, level, wrap), sample(*pyramid, 1, at.st, level, wrap)};
         if (upscale == Upscale::smooth) return smooth_slope(*pyramid, at.st, level, wrap);
         return plain_slope(*pyramid, at.st, level, wrap);
@@ -59,6 +65,17 @@ Pyramid<T> slope_pyramid(const Image& image, bool y_down) {
     return build_pyramid(std::move(top), 2);
 }
 
+/// All channels as they are, the second one negated where `y_down` asks for it.
+template <class T>
+Pyramid<T> value_pyramid(const Image& image, bool y_down) {
+    Level<T> top{image.width, image.height, {}};
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = c; i < image.texels.size(); i += channels)
+            top.texels.push_back(y_down && c == 1 ? -T(image.texels[i]) : T(image.texels[i]));
+    return build_pyramid(std::move(top), image.channels);
+}
+
 /// Builds each pyramid once.
 template <class T>
 class SceneTextures {
@@ -66,7 +83,7 @@ public:
     explicit SceneTextures(const Images& images) : images_(images) {}
 
     LayerTexture<T> slopes(const TextureUse& use, Content content) {
-        const bool y_down = content == Content::normal && use.y_down;
+        const bool y_down = (content == Content::normal || content == Content::slope) && use.y_down;
         const Address wrap = use.wrap == Wrap::repeat ? Address::repeat : Address::clamp;
         return {pyramid(use.file.string(), content, y_down), content, use.upscale, wrap};
     }
@@ -81,8 +98,10 @@ private:
         if (slot) return slot;
         const auto image = images_.find(file);
         if (image == images_.end()) throw std::runtime_error("reference: texture not given: " + file);
-        slot = std::make_shared<const Pyramid<T>>(content == Content::normal ? slope_pyramid<T>(image->second, y_down)
-                                                                             : first_channel_pyramid<T>(image->second));
+        slot =
+            std::make_shared<const Pyramid<T>>(content == Content::normal   ? slope_pyramid<T>(image->second, y_down)
+                                               : content == Content::height ? first_channel_pyramid<T>(image->second)
+                                                                            : value_pyramid<T>(image->second, y_down));
         return slot;
     }
 

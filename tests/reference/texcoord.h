@@ -16,8 +16,10 @@ struct Surfel {
     Vec<T> position;  ///< world
     Vec<T> normal;
     ScreenDerivative<T> d;
-    std::optional<TexCoord<T>> uv{};  ///< the UV plane; nothing without plane or derivative
-    std::function<std::optional<Vec2<T>>(const std::string&)> height_slope{};  ///< of a plane, per pixel
+    std::optional<TexCoord<T>> uv;          ///< the UV plane; nothing without plane or derivative
+    std::optional<TangentFrame<T>> vertex;  ///< the renderer's tangents; nothing without planes, or not finite
+    bool vertex_planes = false;             ///< the G-buffer has them
+    std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of a plane, per pixel
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.

@@ -16,8 +16,7 @@ struct UvPixel {
     Vec2<T> uv;
 };
 
-/// Whether j lies on the surface of i, along an axis of position derivative dp: no object, normal or depth break
-/// between them.
+/// Whether j may be differenced with i along an axis of position derivative dp: no object, normal or depth break.
 template <class T>
 bool same_surface(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
     const Vec<T> step = j.position - i.position;
