@@ -14,7 +14,7 @@ from pathlib import Path
 COUNTS = {"regular": 16, "hard": 6, "": 48}
 TEXTURES = ("0", "2", "3")
 FACES = 40
-TABLES = """listing01_resolve listing02_tspace_to_deriv listing03_surfgrad_tbn listing04_genbasis_tb
+TABLES = """blend_tspace_normals listing01_resolve listing02_tspace_to_deriv listing03_surfgrad_tbn listing04_genbasis_tb
             listing05_perturbed_normal listing06_scale_dependent listing08_volume_gradient listing09_prologue
             listing10_screenderiv_noddxy listing11_project_vec_to_tex listing12_tex_offs_to_surface
             listing13_triplanar listing14_triplanar_weights listing15_decal

@@ -74,11 +74,10 @@ const char* view_text(const Emitter& emitter) {
 }
 
 /// Arguments of the generated helpers: every plane they load.
-std::string neighbour_planes(const GeometryText& geometry, bool uv, bool object, bool declare) {
+std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
     std::string text;
     std::vector<std::string> planes = geometry.planes;
     planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z"});
-    if (uv) planes.insert(planes.end(), {"uv.u", "uv.v"});
     if (object) planes.push_back("object");
     for (const std::string& plane : planes)
         text += fmt::format(", {}{}", declare ? "global const float *" : "", identifier(plane));
@@ -86,38 +85,36 @@ std::string neighbour_planes(const GeometryText& geometry, bool uv, bool object,
 }
 
 /// A neighbour needs no mask of its own bits: what is not finite fails the comparisons of wr_neighbour_step.
-std::string neighbour_helper(const GeometryText& geometry, bool uv, bool object) {
+std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const std::string load = "wr_load_near({}, at, pixels)";
     const bool depth = geometry.planes.size() == 1;
     std::string text =
-        "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated.\n"
+        "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated, with what u and v hold there.\n"
         "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
-        neighbour_planes(geometry, uv, object, true) + ")\n{\n";
+        neighbour_planes(geometry, object, true) + ", global const float *u, global const float *v)\n{\n";
     text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.position + "\n";
     text += fmt::format(
         "    mask valid = (x > 0) & (y > 0) & (x < frame->width) & (y < frame->height){};\n"
-        "    vec2 uv = wr_v2({}, {});\n"
+        "    vec2 uv = wr_v2(wr_real(wr_load_near(u, at, pixels)), wr_real(wr_load_near(v, at, pixels)));\n"
         "    vec3 n = wr_v3(wr_real(nx), wr_real(ny), wr_real(nz));\n"
         "    real object = {};\n"
         "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",
         depth ? " & (wr_real(z) > 0) & (wr_real(z) < WR_BACKGROUND_DEPTH)" : "",
-        uv ? "wr_real(wr_load_near(in_uv_u, at, pixels))" : "(real)(0)",
-        uv ? "wr_real(wr_load_near(in_uv_v, at, pixels))" : "(real)(0)",
         object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
     return text;
 }
 
 /// Kernel text that declares the pixel as `self`, with text that is its texture coordinates and its validity, and calls
-/// `use` for each image axis with the texts of the neighbours before and after it.
+/// `use` for each image axis with the texts of the neighbours before and after it. `values` are the two planes that a
+/// neighbour has as its coordinates.
 template <class Use>
-std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section, const std::string& uv,
-                            const std::string& valid, const Use& use) {
+std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section, const std::string& values,
+                            const std::string& uv, const std::string& valid, const Use& use) {
     const bool object = emitter.has("object");
     if (object) section.inputs.insert("object");
-    if (!emitter.plan.neighbours)
-        emitter.helpers += neighbour_helper(geometry, section.inputs.contains("uv.u"), object);
+    if (!emitter.plan.neighbours) emitter.helpers += neighbour_helper(geometry, object);
     emitter.plan.neighbours = true;
-    const std::string planes = neighbour_planes(geometry, section.inputs.contains("uv.u"), object, false);
+    const std::string planes = neighbour_planes(geometry, object, false) + ", " + values;
     std::string text = fmt::format(
         "        long here = at.in, row = width;\n"
         "        wr_neighbour self = {{{}, p, unturned, {}, {}}};\n",
@@ -132,11 +129,12 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
     return text;
 }
 
-/// Sets dn_dx and dn_dy.
+/// Sets dn_dx and dn_dy. No use of coordinates: the compiler drops what is loaded for them.
 std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
     section.operations += 200;
     return "        {\n" +
-           neighbours_text(emitter, geometry, section, "wr_v2((real)(0), (real)(0))", "valid",
+           neighbours_text(emitter, geometry, section, "in_normal_x, in_normal_x", "wr_v2((real)(0), (real)(0))",
+                           "valid",
                            [](const char* axis, const std::string& before, const std::string& after) {
                                return fmt::format(
                                    "        dn_{0} = wr_normal_difference(self, {1},\n"
@@ -188,8 +186,8 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
         section.operations += 90;
     } else {
         text += "        mask usable = uv_valid;\n" +
-                neighbours_text(emitter, geometry, section, "wr_v2(wr_real(u), wr_real(v))", "uv_valid",
-                                [](const char* axis, const std::string& before, const std::string& after) {
+                neighbours_text(emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))",
+                                "uv_valid", [](const char* axis, const std::string& before, const std::string& after) {
                                     return fmt::format(
                                         "        uv.{0} = wr_texcoord_difference(self, {1},\n"
                                         "                                       {2}, dp_{0}, &usable);\n",
@@ -246,6 +244,39 @@ std::string face_viewer_text(const Emitter& emitter) {
         "        mask away;\n"
         "        n = wr_face_viewer(n, {}, &away);\n",
         view_text(emitter));
+}
+
+std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section) {
+    const GeometryText geometry = geometry_text(emitter);
+    section.inputs.insert(geometry.planes.begin(), geometry.planes.end());
+    section.inputs.insert({"normal.x", "normal.y", "normal.z", plane});
+    section.reads.insert({"valid", "marked"});
+    section.writes.insert("marked");
+    section.operations += 300;
+    const std::string height = identifier(plane);
+    const std::string differences =
+        neighbours_text(emitter, geometry, section, height + ", " + height, "wr_v2(wr_real(height), (real)(0))",
+                        "usable", [](const char* axis, const std::string& before, const std::string& after) {
+                            return fmt::format(
+                                "        dh.{1} = wr_height_difference(self, {2},\n"
+                                "                                     {3}, step_{0}, &usable);\n",
+                                axis, axis[1], before, after);
+                        });
+    // What belongs to a surface is asked of the frame's own positions and normals, whatever stage this is.
+    return "        vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
+           sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
+           load_normal("wr_load_floats({}, at.in)", "        ") +
+           "        vec3 unturned = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), n));\n"
+           "        vec3 step_dx, step_dy;\n        {\n        vec3 n = unturned, dp_dx, dp_dy;\n" +
+           face_viewer_text(emitter) + derivative_text(emitter) +
+           "        step_dx = dp_dx, step_dy = dp_dy;\n        }\n" +
+           fmt::format(
+               "        floats height = wr_load_floats({}, at.in);\n"
+               "        mask usable = active & wr_finite(height);\n{}"
+               "        dh = wr_select(usable, dh, wr_v2((real)(0), (real)(0)));\n"
+               "        real low_bits = marked - 8 * wr_floor(marked / 8);\n"
+               "        marked += (active & !usable & (low_bits < 4)) ? (real)(4) : (real)(0);\n        }}\n",
+               height, differences);
 }
 
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {

@@ -9,7 +9,20 @@ namespace wrinkle {
 
 namespace {
 
-constexpr double kFrame = 70, kScaleDependent = 85;  // expected operations
+constexpr double kFrame = 70, kScaleDependent = 85, kCombine = 90;  // expected operations
+
+const char* combine_function(Combine combine) {
+    switch (combine) {
+        case Combine::whiteout:
+            return "wr_combine_whiteout";
+        case Combine::udn:
+            return "wr_combine_udn";
+        case Combine::linear:
+            return "wr_combine_linear";
+        default:
+            return "wr_combine_rnm";
+    }
+}
 
 /// Whether the layer goes by the planes of the renderer's tangents. They belong to the UV pass: its scale and offset do
 /// not turn them, a rotation would.
@@ -30,26 +43,32 @@ bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
            std::ranges::all_of(tangent, [&](const auto& plane) { return emitter.has(plane); }) &&
            (emitter.has("tangent_sign") || emitter.has("bitangent.z"));
 }
-
 }  // namespace
 
 std::string emit(LayerText& at, const NormalMapLayer& l) {
     std::string text = at.textured(l.texture, l.uv);
-    if (vertex_frame(at, l)) {
+    const bool planes = vertex_frame(at, l);
+    if (planes) {
         at.section.reads.insert({"vertex_tb", "vertex_tb_valid"});
         for (const std::size_t i : {0u, 1u})  // a mirrored texture
             if (l.uv.scale[i] < 0) text += fmt::format("        slope.{0} = -slope.{0};\n", i == 0 ? 'x' : 'y');
+        text += "        m = vertex_tb_valid ? m : (real)(0);\n";
         at.section.operations += 8;
-        return text + fmt::format(
-                          "        m = vertex_tb_valid ? m : (real)(0);\n"
-                          "        g = wr_fma(wr_surface_gradient_from_tbn(slope, vertex_tb), m * {}, g);\n",
-                          at.strength());
+    } else {
+        text += "        wr_frame_tb f = wr_tangent_frame(n, dp_dx, dp_dy, c.dx, c.dy);\n";
+        at.section.operations += kFrame;
     }
-    at.section.operations += kFrame;
+    const char* frame = planes ? "vertex_tb" : "f";
+    if (l.combine == Combine::surface_gradient)
+        return text + fmt::format("        g = wr_fma(wr_surface_gradient_from_tbn(slope, {}), m * {}, g);\n", frame,
+                                  at.strength());
+    at.section.operations += kCombine;
+    at.section.reads.insert("dh_dp");
     return text + fmt::format(
-                      "        wr_frame_tb f = wr_tangent_frame(n, dp_dx, dp_dy, c.dx, c.dy);\n"
-                      "        g = wr_fma(wr_surface_gradient_from_tbn(slope, f), m * {}, g);\n",
-                      at.strength());
+                      "        vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                      "        vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (real)({}));\n"
+                      "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
+                      frame, at.strength(), combine_function(l.combine));
 }
 
 std::string emit(LayerText& at, const HeightMapLayer& l) {

@@ -47,9 +47,10 @@ std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, cons
 }
 
 std::string LayerText::volume(const std::string& gradient) {
-    section.reads.insert("dh_dp");
-    section.writes.insert("dh_dp");
-    return fmt::format("        dh_dp = wr_fma({}, m * {}, dh_dp);\n", gradient, strength());
+    const char* sum = layer.project ? "dh_dp" : "g";
+    section.reads.insert(sum);
+    section.writes.insert(sum);
+    return fmt::format("        {0} = wr_fma({1}, m * {2}, {0});\n", sum, gradient, strength());
 }
 
 }  // namespace wrinkle

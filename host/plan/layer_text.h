@@ -20,7 +20,7 @@ struct LayerText {
     std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
-    /// Adds a volume gradient.
+    /// Adds a volume gradient, to be projected onto the surface unless the layer says otherwise.
     std::string volume(const std::string& gradient);
 };
 
@@ -31,9 +31,13 @@ std::string sample_function(const TextureUse& use);
 /// Expected operations of such a sample.
 double sample_cost(const TextureUse& use);
 
+/// Directions of an object's axes in world space.
+std::array<Vec3, 3> object_axes(const Placement& placement);
+
 /// Kernel text of a layer, one function a kind.
 std::string emit(LayerText& at, const NormalMapLayer& l);
 std::string emit(LayerText& at, const HeightMapLayer& l);
+std::string emit(LayerText& at, const HeightChannelLayer& l);
 std::string emit(LayerText& at, const TriplanarLayer& l);
 std::string emit(LayerText& at, const NoiseLayer& l);
 std::string emit(LayerText& at, const ConstantLayer& l);

@@ -67,6 +67,8 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
 std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, const std::string& who, Section& section);
 /// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` the stage needs.
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted);
+/// Kernel text that declares `dh`, the change of a height plane from pixel to pixel, 0 and marked where there is none.
+std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section);
 /// Kernel text that sets dp_dx and dp_dy of p and n.
 std::string derivative_text(const Emitter& emitter);
 /// Kernel text that turns n towards the viewer; `away` where it had to.

@@ -13,6 +13,8 @@ void read_weight(Table& table, Layer& layer) {
     read_place(table, layer);
 }
 
+void read_project(Table& table, Layer& layer) { table.read("project", layer.project); }
+
 void read_texture_file(Table& table, TextureUse& texture) {
     table.require("texture");
     table.read_file("texture", texture.file);

@@ -9,6 +9,8 @@ namespace wrinkle::scene {
 void read_place(Table& table, Layer& layer);
 /// scale, blend, footprint, mask
 void read_weight(Table& table, Layer& layer);
+/// project: for kinds that are gradients in space
+void read_project(Table& table, Layer& layer);
 /// texture
 void read_texture_file(Table& table, TextureUse& texture);
 /// y
@@ -23,6 +25,7 @@ void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
 /// One function a kind.
 void read_normal_map(Table& table, Layer& layer);
 void read_height_map(Table& table, Layer& layer);
+void read_height_channel(Table& table, Layer& layer);
 void read_object_normal(Table& table, Layer& layer);
 void read_derivative_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);

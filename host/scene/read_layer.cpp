@@ -10,6 +10,7 @@ void read_constant(Table& table, Layer& layer) {
     ConstantLayer bump;
     table.require("gradient");
     table.read("gradient", bump.gradient);
+    read_project(table, layer);
     read_weight(table, layer);
     layer.bump = bump;
 }
@@ -20,6 +21,7 @@ void read_resolve(Table&, Layer& layer) { layer.bump = ResolveLayer{}; }
 constexpr Kind<Layer> kinds[] = {
     {NormalMapLayer::kind, read_normal_map},
     {HeightMapLayer::kind, read_height_map},
+    {HeightChannelLayer::kind, read_height_channel},
     {TriplanarLayer::kind, read_triplanar},
     {NoiseLayer::kind, read_noise},
     {DecalLayer::kind, read_decal},

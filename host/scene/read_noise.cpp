@@ -88,6 +88,7 @@ void read_noise(Table& table, Layer& layer) {
     read_fractal(table, bump);
     read_simplex(table, bump);
     if (auto shape = table.table("shape", "shape of " + table.where())) read_shape(*shape, bump.shape);
+    read_project(table, layer);
     read_weight(table, layer);
     layer.bump = bump;
 }

@@ -7,6 +7,12 @@ void read_normal_map(Table& table, Layer& layer) {
     read_texture_file(table, bump.texture);
     read_green(table, bump.texture);
     read_mapped(table, bump.texture, bump.uv);
+    table.choose("combine", bump.combine,
+                 {{"surface_gradient", Combine::surface_gradient},
+                  {"whiteout", Combine::whiteout},
+                  {"udn", Combine::udn},
+                  {"rnm", Combine::rnm},
+                  {"linear", Combine::linear}});
     table.choose(
         "frame", bump.frame,
         {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"tangents", TangentSource::planes}});
@@ -26,6 +32,14 @@ void read_height_map(Table& table, Layer& layer) {
     layer.bump = bump;
 }
 
+void read_height_channel(Table& table, Layer& layer) {
+    HeightChannelLayer bump;
+    table.require("channel");
+    table.read("channel", bump.channel);
+    read_weight(table, layer);
+    layer.bump = bump;
+}
+
 void read_derivative_map(Table& table, Layer& layer) {
     DerivativeMapLayer bump;
     read_texture_file(table, bump.texture);
@@ -35,15 +49,6 @@ void read_derivative_map(Table& table, Layer& layer) {
     table.choose("slopes", bump.texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
     table.choose("bump_scale", bump.auto_scale, {{"metres", false}, {"auto", true}});
     read_mapped(table, bump.texture, bump.uv);
-    read_weight(table, layer);
-    layer.bump = bump;
-}
-
-void read_triplanar(Table& table, Layer& layer) {
-    TriplanarLayer bump;
-    read_any_texture(table, bump.texture);
-    table.read("tile", bump.tile, positive);
-    table.read("sharpness", bump.sharpness, {.low = 0, .high = 1000, .low_is_allowed = false});
     read_weight(table, layer);
     layer.bump = bump;
 }

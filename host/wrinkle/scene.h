@@ -76,12 +76,17 @@ struct Mask {
 /// derivatives of the texture coordinates; automatic takes the planes where they are there and fit the mapping.
 enum class TangentSource { automatic, derived, planes };
 
+/// How a bump joins those below it in its stage. Surface gradients add up; the others are what other programs do
+/// [Mik20 4.2], across any unwraps.
+enum class Combine { surface_gradient, whiteout, udn, rnm, linear };
+
 /// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
 struct NormalMapLayer {
     static constexpr const char* kind = "normal_map";
     TextureUse texture{.content = Content::normal};
     UvMapping uv{};
     TangentSource frame = TangentSource::automatic;
+    Combine combine = Combine::surface_gradient;
 };
 
 /// Normals in object or world space, as a bake of the whole surface gives them [Mik20 3.4].
@@ -109,12 +114,36 @@ struct HeightMapLayer {
     UvMapping uv{};
 };
 
-/// Three planar projections along the world axes, blended by the normal [Mik20 4.4].
+/// A height in metres that a channel of the G-buffer holds, differenced with neighbours on the same surface [Mik20 3.5,
+/// listing 7].
+struct HeightChannelLayer {
+    static constexpr const char* kind = "height_channel";
+    std::string channel{};
+};
+
+/// Where an object is: its point q is at translate + R (scale q), R turning about x, then y, then z.
+struct Placement {
+    Vec3 translate{}, rotate{}, scale{1, 1, 1};  ///< metres; radians; a negative factor mirrors
+    bool operator==(const Placement&) const = default;
+};
+
+/// A picture's first row is its top in both; this is where (0,0) of texture space is.
+enum class TextureOrigin { lower_left, upper_left };
+enum class Handedness { left, right };
+/// [Mik20 figure 5] Slopes projected onto the surface; slopes as they are (Perlin's perturbation); the first components
+/// of the normals as they are (Geiss). The last two are there to compare with.
+enum class TriplanarMode { surface_gradient, perlin, geiss };
+
+/// Three planar projections along the axes of the world or of an object, blended by the normal [Mik20 4.4].
 struct TriplanarLayer {
     static constexpr const char* kind = "triplanar";
     TextureUse texture;
     double tile = 1;       ///< metres per repeat of the texture
     double sharpness = 3;  ///< exponent k of the weights, listing 14
+    TextureOrigin origin = TextureOrigin::lower_left;
+    Handedness handedness = Handedness::left;  ///< left: sampled with (z,y), (x,z), (x,y); right: -z for z
+    TriplanarMode mode = TriplanarMode::surface_gradient;
+    Placement transform{};  ///< tile is in the object's units; heights are in metres all the same
 };
 
 enum class NoiseType { perlin, perlin1985, simplex, worley };
@@ -212,12 +241,14 @@ enum class Blend { add, subtract };
 struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
-    std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, ConstantLayer, ResolveLayer,
-                 ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer, VolumeLayer>
+    std::variant<NormalMapLayer, HeightMapLayer, HeightChannelLayer, TriplanarLayer, NoiseLayer, DecalLayer,
+                 ConstantLayer, ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer, VolumeLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;
     bool footprint = true;  ///< clamp mips and octaves to the pixel's footprint
+    bool project =
+        true;  ///< of gradients in space only the part tangent to the surface; false: Perlin 1985, to compare
     Mask mask;
 
     const char* kind() const {

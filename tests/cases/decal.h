@@ -26,8 +26,8 @@ inline Cases decal_gradient_cases() {
         const V2 d = table.vec2(i, "d");
         const V g = reference::decal_volume_gradient(d, x, y);
         add_golden_row(c, table, i, {"n"}, std::max(real{1}, length(g) / length(want)));
-        c.in("d", d);
-        c.out("volume", g), c.out("sg", want);
+        c.in("slope", d), c.in("weight", real{1});
+        c.out("dh_dp", g), c.out("sg", want);
         wr_decal decal{};
         put(decal.gradient_s, x), put(decal.gradient_t, y);
         add_decal(c, decal);
@@ -71,7 +71,7 @@ inline Cases decal_box_cases() {
         c.out("q", at), c.out("st", V2{(at.x + 1) / 2, (at.y + 1) / 2}), c.out("step", V2{step.x / 2, step.y / 2});
         c.out("inside", largest(at) <= 1 ? real{1} : real{0});
         c.out("falloff", reference::decal_box_weight(at, falloff));
-        c.out("angle_fade", reference::decal_angle_fade(cosine, a0, a1));
+        c.out("fade", reference::decal_angle_fade(cosine, a0, a1));
     }
     return c;
 }

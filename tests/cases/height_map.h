@@ -2,7 +2,7 @@
 
 #include "run/frame_constants.h"
 #include "tests/cases/cases.h"
-#include "tests/reference/height_slope.h"
+#include "tests/reference/height_taps.h"
 
 namespace wrinkle::cases {
 
@@ -89,32 +89,42 @@ inline Cases height_slope_cases(bool smooth) {
     return c;
 }
 
-/// Listing 7: heights a pixel apart, repeated, at footprints from a fifth of a texel to the whole picture.
-inline Cases height_screen_slope_cases() {
-    Cases c{.name = "listing07 forward differences"};
-    c.data.constants_per_row = 1;  // the texture
+/// Listing 7, repeated: footprints from a billionth of the texture to several of it, across texels and mips. What is
+/// allowed goes with the texels that a pixel spans.
+inline Cases height_tap_cases() {
+    Cases c{.name = "height taps"};
+    c.data.constants_per_row = 1;
     const auto textures = golden_textures();
     std::vector<const Pyramid*> heights;
     for (const auto& [name, height] : textures) {
         heights.push_back(&height);
-        add_heights(c.data, height, Address::repeat);
+        add_texture(c.data, height, 1,
+                    [&](const auto& l, int, int x, int y) { return l.at(0, x, y, Address::repeat); });
     }
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+    for (unsigned seed = 1; seed <= 600; ++seed) {
         Random random(seed);
-        const std::size_t k = seed % heights.size();
-        const Pyramid& height = *heights[k];
-        const auto around = [&](real size) {
+        const std::size_t which = seed % heights.size();
+        const Pyramid& height = *heights[which];
+        const bool hard = seed % 2 == 0;
+        const real size = hard ? random.magnitude(-9, 0.5L) : random.uniform(0.001L, 0.1L);
+        const auto step = [&] {
             return V2{static_cast<float>(random.uniform(-1, 1) * size),
                       static_cast<float>(random.uniform(-1, 1) * size)};
         };
-        const real step = random.magnitude(-2, 0);
-        const V2 st = around(seed % 2 ? 1 : 1e5L), dx = around(step), dy = around(step);
-        const real lod = random.uniform(0, real(height.levels.size() - 1));
-        c.add("forward differences, seed " + std::to_string(seed), seed % 2 == 0);
-        c.data.constants.push_back(static_cast<double>(2 * k));
-        c.in("st", st), c.in("dst_dx", dx), c.in("dst_dy", dy), c.in("lod", lod);
-        const auto at = [&](V2 p) { return sample(height, 0, p, lod, Address::repeat); };
-        c.out("dh_dxy", V2{at(st + dx) - at(st), at(st + dy) - at(st)});
+        const real far = seed % 5 == 0 ? 1e5L : 2;
+        V2 st{random.uniform(-far, far), random.uniform(-far, far)};
+        const int w = height.levels[0].width, h = height.levels[0].height;
+        if (seed % 3 == 0)  // beside the border of texels, so that steps cross it
+            st = {static_cast<float>((random.below(w) + 0.5L) / w + random.uniform(-1, 1) * size / 2),
+                  static_cast<float>((random.below(h) + 0.5L) / h + random.uniform(-1, 1) * size / 2)};
+        const reference::TexDerivative<real> d{step(), step()};
+        const real last = real(height.levels.size() - 1), lod = seed % 4 == 0 ? random.uniform(0, last) : 0;
+        const real span =
+            std::max({std::abs(d.dx.x) * w, std::abs(d.dx.y) * h, std::abs(d.dy.x) * w, std::abs(d.dy.y) * h});
+        c.add("height taps, seed " + std::to_string(seed), hard, std::min(span, real{1}));
+        c.data.constants.push_back(static_cast<double>(which));
+        c.in("st", st), c.in("dst_dx", d.dx), c.in("dst_dy", d.dy), c.in("lod", lod);
+        c.out("dh_dxy", reference::height_taps(height, st, d, lod, Address::repeat));
     }
     return c;
 }

@@ -1,9 +1,12 @@
 #include "tests/cases/registry.h"
 
+#include "tests/cases/blend.h"
+#include "tests/cases/decal.h"
 #include "tests/cases/displacement.h"
 #include "tests/cases/fractal.h"
 #include "tests/cases/height_map.h"
 #include "tests/cases/noise.h"
+#include "tests/cases/object_scale.h"
 #include "tests/cases/parallax.h"
 #include "tests/cases/perturbed_normal.h"
 #include "tests/cases/prologue.h"
@@ -27,15 +30,29 @@ constexpr real difference_margin = 1e-2L;  // several steps of a difference
 
 const std::map<std::string, Cases (*)()>& registry() {
     static const std::map<std::string, Cases (*)()> all{
+        {"blend_linear", [] { return blend_cases("linear", reference::blend_linear<real>); }},
+        {"blend_partial_derivative", [] { return blend_cases("want_pd", reference::blend_partial_derivative<real>); }},
+        {"blend_rnm", [] { return blend_cases("want_rnmN", reference::blend_rnm<real>); }},
+        {"blend_udn", [] { return blend_cases("want_udn", reference::blend_udn<real>); }},
+        {"blend_whiteout", [] { return blend_cases("want_whiteout", reference::blend_whiteout<real>); }},
+        {"combine_linear", [] { return combine_cases(reference::Blending::linear); }},
+        {"combine_rnm", [] { return combine_cases(reference::Blending::rnm); }},
+        {"combine_udn", [] { return combine_cases(reference::Blending::udn); }},
+        {"combine_whiteout", [] { return combine_cases(reference::Blending::whiteout); }},
+        {"decal_angle_fade", [] { return decal_box_cases(); }},
+        {"decal_gradient", decal_gradient_cases},
+        {"decal_locate", [] { return decal_box_cases(); }},
+        {"decal_step", [] { return decal_box_cases(); }},
         {"displace", displace_cases},
         {"displace_curved", displace_curved_cases},
         {"facing_normal", facing_cases},
         {"fractal_sum", [] { return fractal_cases(Octaves::sum); }},
         {"golden_march", golden_march_cases},
         {"golden_ratio", golden_ratio_cases},
-        {"height_screen_slope", height_screen_slope_cases},
         {"height_slope_plain", [] { return height_slope_cases(false); }},
         {"height_slope_smooth", [] { return height_slope_cases(true); }},
+        {"height_taps", height_tap_cases},
+        {"normal_offset", normal_offset_cases},
         {"parallax_march", parallax_march_cases},
         {"parallax_normal", parallax_normal_cases},
         {"perlin1985_noise", [] { return perlin_cases(true); }},
@@ -44,12 +61,16 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"perlin_noise", [] { return perlin_cases(false); }},
         {"perlin_noise_central", [] { return perlin_cases(false); }},
         {"perlin_noise_forward", [] { return perlin_cases(false); }},
+        {"perturb_perlin_1985", perlin_perturbation_cases},
+        {"planar_texcoord", planar_cases},
         {"project_to_texture", project_to_texture_cases},
         {"rebase", rebase_cases},
         {"remap_ramp", [] { return remap_cases(Remap::ramp); }},
         {"remap_smooth", [] { return remap_cases(Remap::smooth); }},
         {"remap_wave", [] { return remap_cases(Remap::wave); }},
+        {"reorient_normal", reorient_cases},
         {"resolve", resolve_cases},
+        {"resolve_object", object_scale_cases},
         {"ridged_multifractal", [] { return fractal_cases(Octaves::ridged); }},
         {"screen_derivatives", [] { return screen_derivative_cases(true); }},
         {"screen_derivatives_general", [] { return screen_derivative_cases(false); }},
@@ -74,6 +95,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"surface_gradient_from_tbn", tbn_cases},
         {"surface_gradient_from_volume", volume_gradient_cases},
         {"surface_gradient_scale_dependent", scale_dependent_cases},
+        {"surface_gradient_to_world", object_scale_cases},
         {"tangent_frame", tangent_frame_cases},
         {"tangent_normal_slope", tangent_normal_cases},
         {"tangent_normal_slope_xy", tangent_normal_xy_cases},
@@ -81,6 +103,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"texture_offset_to_surface", texture_offset_cases},
         {"texture_step", texcoord_step_cases},
         {"triplanar_gradient", triplanar_gradient_cases},
+        {"triplanar_object_normals", triplanar_normal_cases},
         {"triplanar_weights", triplanar_weight_cases},
         {"turbulence", [] { return fractal_cases(Octaves::turbulence); }},
         {"two_sided_normal", two_sided_cases},

@@ -6,6 +6,32 @@
 
 namespace wrinkle::cases {
 
+/// Surface gradients of slopes along the screen, listing 6 with isDerivScreenSpace: golden rows, and footprints of any
+/// size and stretch.
+inline Cases screen_slope_cases() {
+    Cases c{.name = "listing06_scale_dependent, screen"};
+    const auto answer = [&](const SurfaceDerivatives& d, V2 dh_dxy) {
+        c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dh_dxy", dh_dxy);
+        c.out("g", reference::surface_gradient_from_screen_slope(normalize(d.n), d.dp_dx, d.dp_dy, dh_dxy));
+    };
+    const GoldenTable table = reference::golden("listing06_scale_dependent");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        add_golden_row(c, table, i, {}, table.text(i, "category") == "normal_in_tangent_plane" ? 20 : 1);
+        answer(golden_derivatives(table, i), table.vec2(i, "deriv"));
+        if (finite(table.vec(i, "want_sgScr"))) c.want["g"].back() = table.vec(i, "want_sgScr");
+    }
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        const SurfaceDerivatives d = random_derivatives(random);
+        const real size = random.magnitude(-3, 3) * length(d.dp_dx);
+        c.add("screen slopes, any footprint, seed " + std::to_string(seed), true);
+        answer(d, {static_cast<float>(random.uniform(-1, 1) * size), static_cast<float>(random.uniform(-1, 1) * size)});
+    }
+    c.add("screen slopes, parallel footprint", true);
+    answer({V{0, 0, 1}, V{1, 2, 0}, V{2, 4, 0}, {}}, {1, 1});
+    return c;
+}
+
 /// Slope times frame, listing 3.
 inline Cases tbn_cases() {
     Cases c{.name = "listing03_surfgrad_tbn"};
@@ -44,31 +70,6 @@ inline Cases scale_dependent_cases() {
         c.add("scale dependent, parallel footprint, seed " + std::to_string(seed), true);
         answer(d, {1, 1}, {256, 256});
         c.want["g"].back() = V{};
-    }
-    return c;
-}
-
-/// The same from changes per pixel, listing 6 with isDerivScreenSpace.
-inline Cases screen_slope_cases() {
-    Cases c{.name = "listing06_scale_dependent, screen"};
-    const auto answer = [&](const SurfaceDerivatives& d, V2 dh_dxy) {
-        c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dh_dxy", dh_dxy);
-        c.out("g", reference::surface_gradient_from_screen_slope(normalize(d.n), d.dp_dx, d.dp_dy, dh_dxy));
-    };
-    const GoldenTable table = reference::golden("listing06_scale_dependent");
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        add_golden_row(c, table, i, {}, table.text(i, "category") == "normal_in_tangent_plane" ? 20 : 1);
-        answer(golden_derivatives(table, i), table.vec2(i, "deriv"));
-        if (finite(table.vec(i, "want_sgScr"))) c.want["g"].back() = table.vec(i, "want_sgScr");
-    }
-    for (unsigned seed = 1; seed <= 200; ++seed) {
-        Random random(seed);
-        SurfaceDerivatives d = random_derivatives(random);
-        const real size = length(d.dp_dx);
-        const V2 slope{static_cast<float>(random.uniform(-1, 1) * size),
-                       static_cast<float>(random.uniform(-1, 1) * size)};
-        c.add("screen slope, any footprint, seed " + std::to_string(seed), true);
-        answer(d, slope);
     }
     return c;
 }

@@ -33,6 +33,72 @@ inline Cases texcoord_step_cases() {
     return c;
 }
 
+/// Planar projections of any tiling and translation; errors are to the size of what is summed.
+inline Cases planar_cases() {
+    Cases c{.name = "planar texture coordinates"};
+    c.data.constants_per_row = 8;
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const real tiling = hard ? random.magnitude(-5, 5) : random.uniform(0.5L, 2);
+        const real far = hard ? random.magnitude(-3, 4) : random.uniform(1, 10),
+                   pixel = hard ? random.magnitude(-9, 0) : 0.01L;
+        const V s = Random::rounded(random.unit() * tiling), t = Random::rounded(random.unit() * tiling);
+        const V2 offset{random.uniform(-1, 1) * tiling, random.uniform(-1, 1) * tiling};
+        const V2 o{static_cast<float>(offset.x), static_cast<float>(offset.y)};
+        const V p = Random::rounded(random.unit() * far), dx = Random::rounded(random.unit() * pixel),
+                dy = Random::rounded(random.unit() * pixel);
+        c.add("planar, seed " + std::to_string(seed), hard,
+              std::max(real{1}, tiling * std::max({far + 1, pixel, real{0}})));
+        for (const real v : {s.x, s.y, s.z, t.x, t.y, t.z, o.x, o.y})
+            c.data.constants.push_back(static_cast<double>(v));
+        c.in("p", p), c.in("dp_dx", dx), c.in("dp_dy", dy);
+        c.out("st", V2{dot(s, p) + o.x, dot(t, p) + o.y});
+        c.out("dst_dx", V2{dot(s, dx), dot(t, dx)}), c.out("dst_dy", V2{dot(s, dy), dot(t, dy)});
+    }
+    return c;
+}
+
+/// The rule for heights: the next pixel, else the one before; none across a break.
+inline Cases height_neighbour_cases() {
+    Cases c{.name = "neighbours of heights"};
+    using Pixel = reference::UvPixel<real>;
+    for (unsigned seed = 1; seed <= 600; ++seed) {
+        Random random(seed);
+        const V dp = random.box(0.1L);
+        const auto make = [&](real direction, int spoil) {
+            Pixel p{true,
+                    3.0f,
+                    Random::rounded(normalize(V{0, 0, 1} + random.unit() * 0.3L)),
+                    Random::rounded(dp * (direction * random.uniform(0.5L, 1.5L))),
+                    {}};
+            if (spoil == 0) p.valid = false;
+            if (spoil == 1) p.object = 4.0f;
+            if (spoil == 2) p.normal = {1, 0, 0};
+            if (spoil == 3) p.position = Random::rounded(dp * (direction * 5));
+            return p;
+        };
+        const Pixel here{seed % 50 != 0, 3.0f, {0, 0, 1}, {}, {}};
+        const Pixel before = make(-1, random.below(8)), after = make(1, random.below(8));
+        const real size = random.magnitude(-6, 6), h = random.uniform(-1, 1) * size;
+        const auto height = [&](int spoil) {
+            return spoil == 0 ? std::numeric_limits<real>::quiet_NaN()
+                              : real{static_cast<float>(random.uniform(-1, 1) * size)};
+        };
+        const real mine = static_cast<float>(h), left = height(random.below(10)), right = height(random.below(10));
+        const auto want = here.valid ? height_difference(here, before, after, mine, left, right, dp) : std::nullopt;
+        c.add("neighbours of heights, seed " + std::to_string(seed), seed % 2 == 0, size);
+        c.in("dp", dp), c.in("here_valid", here.valid ? 1 : 0);
+        const auto put = [&](const std::string& name, const Pixel& p, real value) {
+            c.in(name + "P", p.position), c.in(name + "N", p.normal), c.in(name + "_height", value);
+            c.in(name + "_object", real{*p.object}), c.in(name + "_valid", p.valid ? 1 : 0);
+        };
+        put("before", before, left), put("after", after, right), c.in("here_height", mine);
+        c.out("difference", want.value_or(0)), c.out("usable", want ? real{1} : real{0});
+    }
+    return c;
+}
+
 /// The neighbour rule: combinations of usable, broken and unequal neighbours.
 inline Cases neighbour_cases() {
     Cases c{.name = "neighbours"};

@@ -1,4 +1,4 @@
-// surface/texcoord_derivative.clh
+// surface/texcoord_derivative.clh, surface/height_derivative.clh
 #include "tests/cases/texcoord.h"
 
 #include "tests/kernels/check.h"
@@ -18,31 +18,39 @@ TEST(TexcoordDerivative, DifferenceOfNeighbours) {
            {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
+TEST(HeightDerivative, DifferenceOfNeighbours) {
+    check(
+        cases::height_neighbour_cases(),
+        "wr_neighbour here = {wr_v2(here_height, here_height), wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3,\n"
+        "                     here_valid != 0};\n"
+        "wr_neighbour before = {wr_v2(before_height, before_height), beforeP, beforeN, before_object,\n"
+        "                       before_valid != 0};\n"
+        "wr_neighbour after = {wr_v2(after_height, after_height), afterP, afterN, after_object, after_valid != 0};\n"
+        "mask usable = dp.x == dp.x;\n"
+        "real d = wr_height_difference(here, before, after, dp, &usable);",
+        {{"difference", {"d"}, ErrorMeasure::absolute, 3e-7, 3e-7},
+         {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
+}
+
 TEST(TexcoordDerivative, LinearMaps) {
     cases::Cases c{.name = "linear texture coordinates"};
     const double m[] = {0.75, -1.5, 2, 0.25, 10, -3};
     for (unsigned seed = 1; seed <= 64; ++seed) {
         cases::Random random(seed);
         const V2 st{random.uniform(-9, 9), random.uniform(-9, 9)}, dx{random.uniform(-1, 1), random.uniform(-1, 1)};
-        const V p = random.box(50), dp = random.box(1), s = random.box(2), t = random.box(2);
         c.add("linear coordinates, seed " + std::to_string(seed), false);
-        c.in("c", st), c.in("dx", dx), c.in("p", p), c.in("dp", dp), c.in("s", s), c.in("t", t);
+        c.in("c", st), c.in("dx", dx);
         c.out("st", V2{m[0] * st.x + m[1] * st.y + m[4], m[2] * st.x + m[3] * st.y + m[5]});
         c.out("dx", V2{m[0] * dx.x + m[1] * dx.y, m[2] * dx.x + m[3] * dx.y});
-        c.out("planar", V2{dot(s, p) + m[4], dot(t, p) + m[5]}), c.out("step", V2{dot(s, dp), dot(t, dp)});
     }
     c.data.constants.assign(std::begin(m), std::end(m));
     check(c,
           "wr_texcoord in_uv = {c, dx, dx};\n"
           "wr_texcoord a = wr_transform(in_uv, constants[0], constants[1], constants[2], constants[3], constants[4],\n"
-          "                             constants[5]);\n"
-          "wr_texcoord b = wr_planar(p, dp, dp, s, t, constants[4], constants[5]);",
+          "                             constants[5]);",
           {{"st", xy("a.st"), ErrorMeasure::absolute, 5e-6, 0},
            {"dx", xy("a.dx"), ErrorMeasure::absolute, 5e-7, 0},
-           {"dx", xy("a.dy"), ErrorMeasure::absolute, 5e-7, 0},
-           {"planar", xy("b.st"), ErrorMeasure::absolute, 3e-5, 0},
-           {"step", xy("b.dx"), ErrorMeasure::absolute, 1e-6, 0},
-           {"step", xy("b.dy"), ErrorMeasure::absolute, 1e-6, 0}});
+           {"dx", xy("a.dy"), ErrorMeasure::absolute, 5e-7, 0}});
 }
 
 }  // namespace

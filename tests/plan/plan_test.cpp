@@ -185,6 +185,21 @@ TEST(Plan, CryptomatteNamesBecomeTheirHashes) {
     EXPECT_TRUE(mentions(make_plan(scene_of({masked}), everything()), fmt::format("{}u", 0xbeefu)));
 }
 
+TEST(Plan, HeightsOfAChannelReadTheirNeighboursOnly) {
+    const Plan plan = make_plan(scene_of({layer(HeightChannelLayer{"dirt"})}), everything());
+    EXPECT_TRUE(plan.neighbours);
+    EXPECT_EQ(plan.inputs, (Names{"channel:dirt", "depth", "normal.x", "normal.y", "normal.z", "object"}));
+    expect_mentions(refusal(scene_of({layer(HeightChannelLayer{"dust"}, "wear")}), everything()),
+                    {"wear", "channel:dust"});
+}
+
+TEST(Plan, UnprojectedGradientsNeedNoProjection) {
+    Layer noise = layer(NoiseLayer{});
+    EXPECT_TRUE(mentions(make_plan(scene_of({noise}), everything()), "wr_surface_gradient_from_volume"));
+    noise.project = false;
+    EXPECT_FALSE(mentions(make_plan(scene_of({noise}), everything()), "wr_surface_gradient_from_volume"));
+}
+
 TEST(Plan, GroupsDecalsThatShareMaskAndSampling) {
     Layer masked = layer(decal(), "c");
     masked.mask.object = 3;
@@ -214,14 +229,14 @@ TEST(Plan, OriginsRepeatAsTheirLayersDo) {
     const Plan plan = make_plan(
         scene_of({planar, clamped, layer(tiles), layer(NoiseLayer{.frequency = 3, .octaves = 2})}), everything());
     ASSERT_EQ(plan.origins.size(), 5u);
-    EXPECT_EQ(plan.origins[0].period, 1);
+    EXPECT_EQ(plan.origins[0].period, Periods(1));
     EXPECT_EQ(plan.origins[0].axes[1], (Vec3{0, 4, 0}));
     EXPECT_EQ(plan.origins[0].offset, (Vec3{0.25, 0.5, 0}));
-    EXPECT_EQ(plan.origins[1].period, 0) << "a clamped coordinate must not be reduced";
+    EXPECT_EQ(plan.origins[1].period, Periods(0)) << "a clamped coordinate must not be reduced";
     EXPECT_EQ(plan.origins[2].axes[2], (Vec3{0, 0, 0.25}));
     EXPECT_EQ(plan.origins[3].axes[0], (Vec3{3, 0, 0}));
     EXPECT_EQ(plan.origins[4].axes[0], (Vec3{6, 0, 0}));
-    EXPECT_EQ(plan.origins[3].period, 256);
+    EXPECT_EQ(plan.origins[3].period, Periods(256));
 }
 
 TEST(Plan, ListsSectionsByStage) {

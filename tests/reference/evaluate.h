@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/reference/blend.h"
 #include "tests/reference/layers.h"
 #include "tests/reference/scene_mask.h"
 #include "tests/reference/volume_gradient.h"
@@ -33,7 +34,8 @@ public:
             const auto* parallax = std::get_if<ParallaxLayer>(&layer.bump);
             layers_.push_back({std::visit(make, layer.bump), std::visit(shift, layer.bump),
                                parallax && parallax->curved, sign * T(layer.scale),
-                               SceneMask<T>(layer.mask, layer.footprint, frame_, textures)});
+                               SceneMask<T>(layer.mask, layer.footprint, frame_, textures), layer.project,
+                               combine_of(layer)});
             uses_uv_ = uses_uv_ || reads_uv_plane(layer);
             if (const auto* map = std::get_if<NormalMapLayer>(&layer.bump))
                 uses_vertex_ = uses_vertex_ || uses_vertex_frame(*map, frame_.has_vertex_frame());
@@ -59,7 +61,8 @@ public:
         out.base = out.last = frame_.derivative(i, here.position, here.normal);
         if (here.reflected) out.marked |= Marked::back_facing;
 
-        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false};
+        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false, {}};
+        s.height_slope = [&](const std::string& name) { return frame_.height_slope(i, here, out.base, name); };
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};
             if (!s.uv) out.marked |= Marked::no_uv_derivative;
@@ -87,8 +90,17 @@ public:
             if (!mask || *mask == 0) continue;
             if (layer.shift) move(i, layer, layer.scale * *mask, s, out);
             const Contribution<T> c = layer.function(s);
+            if (c.marks) out.marked |= Marked::no_uv_derivative;
+            if (layer.combine != Combine::surface_gradient && c.usable) {
+                const Vec<T> below = surface + surface_gradient_from_volume(s.normal, volume);
+                const Vec<T> both =
+                    combine_gradients(blending(layer.combine), s.normal, below, c.surface * layer.scale);
+                surface = surface + (both - below) * *mask;
+                continue;
+            }
             surface = surface + c.surface * (layer.scale * *mask);
-            volume = volume + c.volume * (layer.scale * *mask);
+            Vec<T>& space = layer.project ? volume : surface;
+            space = space + c.volume * (layer.scale * *mask);
         }
         finish();
         return out;
@@ -120,7 +132,20 @@ private:
         bool curved;                ///< turns the normal as well
         T scale;                    ///< with the blend's sign
         SceneMask<T> mask;
+        bool project = true;
+        Combine combine = Combine::surface_gradient;
     };
+
+    static Combine combine_of(const Layer& layer) {
+        const auto* map = std::get_if<NormalMapLayer>(&layer.bump);
+        return map ? map->combine : Combine::surface_gradient;
+    }
+    static Blending blending(Combine combine) {
+        return combine == Combine::whiteout ? Blending::whiteout
+               : combine == Combine::udn    ? Blending::udn
+               : combine == Combine::rnm    ? Blending::rnm
+                                            : Blending::linear;
+    }
 
     /// Moves the surfel along the pixel's ray; the texture coordinates go on linearly, in space and from pixel to
     /// pixel.

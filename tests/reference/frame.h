@@ -105,6 +105,25 @@ public:
         return TexDerivative<T>{*dx, *dy};
     }
 
+    /// Change of a height plane to the pixels right and below (or from left and above); nothing where there is none on
+    /// the pixel's surface. `base` as above.
+    std::optional<Vec2<T>> height_slope(std::size_t i, const Decoded<T>& here, const ScreenDerivative<T>& base,
+                                        const std::string& name) const {
+        const std::span<const float> h = plane(name);
+        if (!std::isfinite(h[i])) return std::nullopt;
+        const auto along = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
+            const bool first = index == 0, last = index + 1 == count;
+            const UvPixel<T> before = first ? UvPixel<T>{} : neighbour(i - stride);
+            const UvPixel<T> after = last ? UvPixel<T>{} : neighbour(i + stride);
+            return height_difference(uv_pixel(i, here), before, after, T(h[i]), T(first ? 0 : h[i - stride]),
+                                     T(last ? 0 : h[i + stride]), dp);
+        };
+        const std::optional<T> x = along(1, i % size_.width, size_.width, base.dp_dx);
+        const std::optional<T> y = along(size_.width, i / size_.width, size_.height, base.dp_dy);
+        if (!x || !y) return std::nullopt;
+        return Vec2<T>{*x, *y};
+    }
+
     bool has_vertex_frame() const { return has("tangent.z") && (has("tangent_sign") || has("bitangent.z")); }
 
     /// The renderer's tangents; nothing where they are not finite.

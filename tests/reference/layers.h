@@ -8,6 +8,7 @@
 #include "tests/reference/noise_means.h"
 #include "tests/reference/noise_shape.h"
 #include "tests/reference/normal_transform.h"
+#include "tests/reference/object_scale.h"
 #include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/scale_dependent.h"
@@ -24,6 +25,7 @@ template <class T>
 struct Contribution {
     Vec<T> surface, volume;
     bool usable = true;  ///< false: the UV plane has no derivative here; the contribution is zero
+    bool marks = false;  ///< the pixel is marked for want of a neighbour
 };
 
 /// A layer without scale, blend and mask, ready to be asked at any surfel.
@@ -66,16 +68,61 @@ LayerFunction<T> make_layer(const HeightMapLayer& layer, bool footprint, SceneTe
 }
 
 template <class T>
+LayerFunction<T> make_layer(const HeightChannelLayer& layer, bool, SceneTextures<T>&) {
+    return [name = "channel:" + layer.channel](const Surfel<T>& s) -> Contribution<T> {
+        const auto dh = s.height_slope(name);
+        if (!dh) return {{}, {}, false, true};
+        return {surface_gradient_from_screen_slope(s.normal, s.d.dp_dx, s.d.dp_dy, *dh), {}};
+    };
+}
+
+/// Object to world: scale, then turn about x, y and z.
+template <class T>
+Columns3<T> placement_matrix(const Placement& at) {
+    const auto turned = [&](Vec<T> v) {
+        const auto turn = [](T& a, T& b, T angle) {
+            const T old = a;
+            a = std::cos(angle) * old - std::sin(angle) * b, b = std::sin(angle) * old + std::cos(angle) * b;
+        };
+        turn(v.y, v.z, T(at.rotate[0])), turn(v.z, v.x, T(at.rotate[1])), turn(v.x, v.y, T(at.rotate[2]));
+        return v;
+    };
+    return {turned({T(at.scale[0]), 0, 0}), turned({0, T(at.scale[1]), 0}), turned({0, 0, T(at.scale[2])})};
+}
+
+/// [Mik20 4.4] The projection takes place in object space: points go there by the inverse of M, normals by its
+/// transposed, and gradients come back by the inverse transposed. Options as the paper describes them: sampling
+/// coordinates change sign, and so do the slopes along them.
+template <class T>
 LayerFunction<T> make_layer(const TriplanarLayer& layer, bool footprint, SceneTextures<T>& textures) {
     return [=, texture = textures.slopes(layer.texture, layer.texture.content)](const Surfel<T>& s) -> Contribution<T> {
-        const T per_metre = texture.content == Content::height ? 1 / T(layer.tile) : T(1);
+        const Columns3<T> m = placement_matrix<T>(layer.transform);
+        const T det = dot(m.x, cross(m.y, m.z));
+        const Vec<T> rows[] = {cross(m.y, m.z) / det, cross(m.z, m.x) / det, cross(m.x, m.y) / det};  // of the inverse
+        const auto into = [&](Vec<T> v) { return Vec<T>{dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; };
+        const T up = layer.origin == TextureOrigin::upper_left ? T(-1) : T(1);
+        const T z_sign = layer.handedness == Handedness::right ? T(-1) : T(1);
         const auto slope = [&](Vec2<T> (*plane)(Vec<T>)) {
-            const auto st = [&](Vec<T> p) { return plane(p) * (1 / T(layer.tile)); };
-            return texture.slope(linear_coordinates(st, s.position, s.d), footprint) * per_metre;
+            const auto st = [&](Vec<T> p) {
+                const Vec<T> q = into(p);
+                const Vec2<T> c = plane({q.x, q.y, q.z * z_sign}) * (1 / T(layer.tile));
+                return Vec2<T>{c.x, c.y * up};
+            };
+            Vec2<T> d = texture.slope(
+                linear_coordinates(st, s.position - from_array<T>(layer.transform.translate), s.d), footprint);
+            if (layer.mode == TriplanarMode::geiss) {
+                const Vec<T> normal = tangent_normal_from_slope(d);
+                d = {-normal.x, -normal.y};
+            }
+            return Vec2<T>{d.x, d.y * up};
         };
-        const Vec<T> weights = triplanar_weights(s.normal, T(layer.sharpness));
-        return {{},
-                triplanar_volume_gradient(weights, slope(x_plane_st<T>), slope(y_plane_st<T>), slope(z_plane_st<T>))};
+        const Vec<T> weights = triplanar_weights(
+            normalize(Vec<T>{dot(m.x, s.normal), dot(m.y, s.normal), dot(m.z, s.normal)}), T(layer.sharpness));
+        Vec<T> g = triplanar_volume_gradient(weights, slope(x_plane_st<T>), slope(y_plane_st<T>), slope(z_plane_st<T>));
+        g.z = g.z * z_sign;
+        const bool height = texture.content == Content::height;  // slopes of normals have no unit
+        const auto back = [&](Vec<T> row, T c) { return (height ? row / T(layer.tile) : normalize(row)) * c; };
+        return {{}, back(rows[0], g.x) + back(rows[1], g.y) + back(rows[2], g.z)};
     };
 }
 

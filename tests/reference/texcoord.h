@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "tests/reference/lighting.h"
 #include "tests/reference/scene_textures.h"
@@ -17,6 +19,7 @@ struct Surfel {
     std::optional<TexCoord<T>> uv;          ///< the UV plane; nothing without plane or derivative
     std::optional<TangentFrame<T>> vertex;  ///< the renderer's tangents; nothing without planes, or not finite
     bool vertex_planes = false;             ///< the G-buffer has them
+    std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of a plane, per pixel
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.

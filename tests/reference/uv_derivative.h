@@ -46,6 +46,16 @@ std::optional<Vec2<T>> combine_differences(std::optional<Vec2<T>> forward, std::
     return (*forward + *backward) * (T(1) / 2);
 }
 
+/// [Mik20 listing 7] Change of a height along an axis: to the next pixel, else, where that is not on the surface, from
+/// the one before.
+template <class T>
+std::optional<T> height_difference(const UvPixel<T>& here, const UvPixel<T>& before, const UvPixel<T>& after, T h,
+                                   T h_before, T h_after, Vec<T> dp) {
+    if (same_surface(here, after, dp) && std::isfinite(h_after - h)) return h_after - h;
+    if (same_surface(here, before, dp) && std::isfinite(h - h_before)) return h - h_before;
+    return std::nullopt;
+}
+
 /// d(u,v)/dx from dp/du and dp/dv: the least squares solution of dp_dx = a dp_du + b dp_dv; nothing where dp_du and
 /// dp_dv are parallel or zero.
 template <class T>

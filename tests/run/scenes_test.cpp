@@ -30,13 +30,17 @@ TEST_P(DataScene, AgreesWithTheReference) {
 
 // About three times what was measured with PoCL 3.1 at 16 lanes. Heights: slopes are stored as floats, and a step
 // between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it. Its family: the gradients of
-// cells and ridges jump, and a pixel on a jump may get either side's.
+// cells and ridges jump, and a pixel on a jump may get either side's. Combine: planar coordinates lose their frame
+// where the surface stands on their plane.
 constexpr Bounds light{2e-7, 1e-5, 1e-4};
 INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
-                         testing::Values(SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
+                         testing::Values(SceneCase{"combine", {6e-6, 2e-4, 0.1}, {2e-7, 1e-5, 1e-3}},
+                                         SceneCase{"comparisons", {3e-6, 6e-3, 2e-2}, {2e-7, 1e-4, 5e-4}},
+                                         SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
                                          SceneCase{"courtyard", {2e-6, 3e-4, 1e-3}, light},
                                          SceneCase{"decals", {3e-7, 2e-4, 1e-3}, light},
                                          SceneCase{"derivative_map", {3e-6, 2e-4, 1e-3}, light},
+                                         SceneCase{"height_channel", {3e-7, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
                                          SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light},
                                          SceneCase{"lighting", {3e-7, 3e-4, 1e-3}, {3e-7, 1e-5, 1e-4}},
                                          SceneCase{"noise", {2e-4, 2e-3, 4e-3}, {1e-6, 3e-5, 1.5e-4}},
@@ -46,6 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
                                          SceneCase{"parallax", {3e-6, 4e-4, 2e-3}, light},
                                          SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
                                          SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light},
+                                         SceneCase{"triplanar_object", {3e-7, 4e-4, 1.5e-3}, light},
                                          SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
                          [](const auto& info) { return std::string(info.param.name); });
 

@@ -59,6 +59,30 @@ TEST(Variants, LaneCountsAgreeToRounding) {
     }
 }
 
+/// Four surfaces on top of one another, each made by resolving the one below.
+TEST(Variants, AnyNumberOfStagesAgreesWithTheReference) {
+    const HostFrame frame = small_frame();
+    Scene scene = data_scene("resolve");
+    const auto add = [&](const char* from, std::size_t layer, double scale) {
+        scene.layers.push_back(data_scene("resolve").layers.at(1));
+        scene.layers.push_back(data_scene(from).layers.at(layer));
+        scene.layers.back().scale = scale;
+    };
+    add("triplanar_object", 1, 0.3);
+    add("height_channel", 0, 0.002);
+    scene.lighting.relight = Relight::off;
+    ASSERT_EQ(std::ranges::count_if(scene.layers,
+                                    [](const Layer& l) { return std::holds_alternative<ResolveLayer>(l.bump); }),
+              3);
+    const Truth truth(frame, scene);
+    std::vector<double> errors;
+    const Pixels got = evaluate_on(frame, scene);
+    for (std::size_t i = 0; i < frame.count(); ++i)
+        if (truth.pixels[i].valid) errors.push_back(angle_degrees(vec_at(got, "normal", i), truth.pixels[i].normal));
+    expect_within("four stages", Spread(std::move(errors)), {1e-5, 3e-4, 1e-3}, "degrees");
+    EXPECT_EQ(marked_differences(got, truth), 0u);
+}
+
 TEST(Variants, DoubleAgreesWithTheReference) {
     if (!device().info.fp64) GTEST_SKIP() << device().info.name << " has no double precision";
     const HostFrame frame = small_frame();

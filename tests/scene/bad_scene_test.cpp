@@ -46,7 +46,8 @@ TEST_F(BadScene, UnknownKeys) {
     EXPECT_EQ(
         problems(frame_ + "[[layer]]\nname = \"cobbles\"\nkind = \"constant\"\ngradient = [0, 0, 1]\nscael = 2\n"),
         std::vector<std::string>{"courtyard.toml:9: unknown key \"scael\" in [[layer]] \"cobbles\"; did you mean "
-                                 "\"scale\"? known keys: name, kind, gradient, scale, blend, footprint, mask"});
+                                 "\"scale\"? known keys: name, kind, gradient, project, scale, blend, "
+                                 "footprint, mask"});
     expect_problem_with("[outptu]\n", 5, {"\"outptu\"", "did you mean \"output\"?", "gbuffer, camera, layer"});
     expect_problem_with("[[layers]]\nkind = \"noise\"\n", 5, {"\"layers\" in the scene", "did you mean \"layer\"?"});
     expect_problem_with("[output]\nPNG = true\n", 6, {"unknown key \"PNG\" in [output]", "did you mean \"png\"?"});
@@ -149,6 +150,22 @@ TEST_F(BadScene, NumbersOutOfRange) {
     expect_problem_with(parallax("refine = 17\n"), 8, {"from 0 to 16; found 17"});
     expect_problem_with(parallax("level = 1.5\n"), 8, {"must be at least 0 and at most 1; found 1.5"});
     expect_problem_with("[lighting]\nmax_ratio = 0.5\n", 6, {"must be at least 1"});
+}
+
+TEST_F(BadScene, WaysToCombineAndToCompare) {
+    const auto triplanar = [](const std::string& rest) {
+        return layer("kind = \"triplanar\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    expect_problem_with(layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\ncombine = \"rmn\"\n"), 8,
+                        {"is \"rmn\"; did you mean \"rnm\"?", "\"whiteout\""});
+    expect_problem_with(layer("kind = \"height_channel\"\n"), 5, {"needs the key \"channel\""});
+    expect_problem_with(height_map("project = false\n"), 8, {"does not belong to kind \"height_map\" but to"});
+    expect_problem_with(triplanar("mode = \"geiss\"\n"), 8, {"only with content = \"normal\""});
+    expect_problem_with(triplanar("mode = \"perlim\"\n"), 8, {"did you mean \"perlin\"?"});
+    expect_problem_with(triplanar("origin = [0, 0]\n"), 8, {"\"lower_left\", \"upper_left\""});
+    expect_problem_with(triplanar("transform = { scale = [1, 0, 1] }\n"), 8, {"from 1e-6 to 1e6"});
+    expect_problem_with(triplanar("transform = { rotation = [1, 0, 1] }\n"), 8,
+                        {"transform of [[layer]] \"triplanar 1\"", "translate, rotate, scale"});
 }
 
 TEST_F(BadScene, AxesThatSpanNoPlane) {

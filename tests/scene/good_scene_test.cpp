@@ -183,6 +183,48 @@ TEST_F(GoodScene, FractalsOfSimplexNoise) {
     EXPECT_EQ(noise.shape.power, 2.5);
 }
 
+TEST_F(GoodScene, WaysToCombineAndToCompare) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "normal_map"
+texture = "textures/wall.png"
+combine = "rnm"
+[[layer]]
+kind = "height_channel"
+channel = "Height.V"
+scale = 0.5
+[[layer]]
+kind = "noise"
+project = false
+[[layer]]
+kind = "triplanar"
+texture = "textures/wall.png"
+content = "normal"
+origin = "upper_left"
+handedness = "right"
+mode = "geiss"
+transform = { translate = [1, 2, 3], rotate = [90, 0, -180], scale = 2 }
+[[layer]]
+kind = "triplanar"
+texture = "textures/wall.png"
+transform = { scale = [1, -1, 2] }
+)");
+    ASSERT_EQ(scene.layers.size(), 5u);
+    EXPECT_EQ(std::get<NormalMapLayer>(scene.layers[0].bump).combine, Combine::rnm);
+    EXPECT_EQ(std::get<HeightChannelLayer>(scene.layers[1].bump).channel, "Height.V");
+    EXPECT_EQ(scene.layers[1].scale, 0.5);
+    EXPECT_FALSE(scene.layers[2].project);
+    const auto& geiss = std::get<TriplanarLayer>(scene.layers[3].bump);
+    EXPECT_EQ(geiss.origin, TextureOrigin::upper_left);
+    EXPECT_EQ(geiss.handedness, Handedness::right);
+    EXPECT_EQ(geiss.mode, TriplanarMode::geiss);
+    EXPECT_FALSE(scene.layers[3].project);
+    EXPECT_EQ(geiss.transform.translate, (Vec3{1, 2, 3}));
+    expect_near(geiss.transform.rotate, {90 * degree, 0, -180 * degree});
+    EXPECT_EQ(geiss.transform.scale, (Vec3{2, 2, 2}));
+    EXPECT_TRUE(scene.layers[4].project);
+    EXPECT_EQ(std::get<TriplanarLayer>(scene.layers[4].bump).transform.scale, (Vec3{1, -1, 2}));
+}
+
 TEST_F(GoodScene, LightingAndOutput) {
     const Scene scene = load(full_scene);
     const Lighting& lighting = scene.lighting;
