@@ -48,6 +48,9 @@ std::map<std::filesystem::path, baseline::Image> baseline_images(const Scene& sc
                 if constexpr (requires { bump.texture; })
                     add(bump.texture.file,
                         bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+                if constexpr (requires { bump.textures; })
+                    for (const TextureUse& use : bump.textures)
+                        add(use.file, use.content == Content::height ? ImageUse::scalar : ImageUse::normal);
             },
             layer.bump);
         if (layer.mask.texture) add(layer.mask.texture->file, ImageUse::scalar);

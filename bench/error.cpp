@@ -24,6 +24,9 @@ reference::Images reference_images(const Scene& scene) {
                 if constexpr (requires { bump.texture; })
                     add(bump.texture.file,
                         bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+                if constexpr (requires { bump.textures; })
+                    for (const TextureUse& use : bump.textures)
+                        add(use.file, use.content == Content::height ? ImageUse::scalar : ImageUse::normal);
             },
             layer.bump);
         if (layer.mask.texture) add(layer.mask.texture->file, ImageUse::scalar);

@@ -51,7 +51,11 @@ PreparedLayer LayerBuilder::layer(const Layer& in) {
     out.mask = mask(in.mask);
     std::visit(
         [&](const auto& kind) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(kind)>, ResolveLayer>) out.bump = bump(kind);
+            using Kind = std::decay_t<decltype(kind)>;
+            if constexpr (std::is_same_v<Kind, DecalsLayer>)
+                throw Error("baseline: tables of decals have an evaluator of their own (decals.h)");
+            else if constexpr (!std::is_same_v<Kind, ResolveLayer>)
+                out.bump = bump(kind);
         },
         in.bump);
     return out;

@@ -9,5 +9,6 @@ void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_devices(CLI::App& app);
+void add_scatter(CLI::App& app);
 
 }  // namespace wrinkle::cli

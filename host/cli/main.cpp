@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
         "  wrinkle run courtyard.toml -o out           evaluate a scene; writes out/normal.exr, out/lit.png ...\n"
         "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
+        "  wrinkle scatter scene.toml -o decals.csv    place decals on a frame at random\n"
         "  wrinkle devices                             where it can run\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
@@ -27,10 +28,11 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_run(app);
     wrinkle::cli::add_info(app);
     wrinkle::cli::add_explain(app);
+    wrinkle::cli::add_scatter(app);
     wrinkle::cli::add_devices(app);
     try {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty()) throw CLI::RequiredError("A command (run, info, explain or devices)");
+        if (app.get_subcommands().empty()) throw CLI::RequiredError("A command (run, info, explain, scatter or devices)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());

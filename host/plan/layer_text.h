@@ -35,6 +35,7 @@ std::string emit(LayerText& at, const HeightMapLayer& l);
 std::string emit(LayerText& at, const TriplanarLayer& l);
 std::string emit(LayerText& at, const NoiseLayer& l);
 std::string emit(LayerText& at, const ConstantLayer& l);
+std::string emit(LayerText& at, const DecalsLayer& l);
 
 /// Decals that may share a loop: same mask, same way to sample.
 bool same_loop(const Layer& a, const Layer& b);

@@ -65,6 +65,10 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
 std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, const std::string& who, Section& section);
 /// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` the stage needs.
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted);
+/// The kernel that measures the tiles of the frame, for the bins of decals.
+PlannedKernel emit_tiles(const Emitter& emitter, std::string& source);
+/// The kernels that bin decals; gives the one that measures tiles, which reads planes.
+PlannedKernel emit_bins(const Emitter& emitter, std::string& source);
 /// Kernel text that sets dp_dx and dp_dy of p and n.
 std::string derivative_text(const Emitter& emitter);
 /// Kernel text that turns n towards the viewer; `away` where it had to.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "wrinkle/error.h"
 
@@ -53,6 +54,31 @@ void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
     }
 }
 
+/// The texels of a region, whole ones, at least one each way.
+Image cropped(const Image& image, const std::array<double, 4>& region) {
+    const auto range = [](double from, double to, int size) {
+        const int first = std::clamp(static_cast<int>(std::lround(from * size)), 0, size - 1);
+        return std::pair{first, std::clamp(static_cast<int>(std::lround(to * size)), first + 1, size)};
+    };
+    const auto [left, right] = range(region[0], region[2], image.width);
+    const auto [bottom, top] = range(region[1], region[3], image.height);
+    Image out{right - left, top - bottom, image.channels, {}};
+    for (int y = bottom; y < top; ++y)
+        for (int x = left; x < right; ++x)
+            for (int c = 0; c < image.channels; ++c) out.texels.push_back(image.at(x, y, c));
+    return out;
+}
+
+/// Signed slopes of a map of slopes.
+Image unpacked_slopes(const Image& image, bool y_down) {
+    Image slopes{image.width, image.height, 2, {}};
+    for (std::size_t i = 0; i + 3 <= image.texels.size(); i += 3) {
+        slopes.texels.push_back(2 * image.texels[i] - 1);
+        slopes.texels.push_back((y_down ? -1.0f : 1.0f) * (2 * image.texels[i + 1] - 1));
+    }
+    return slopes;
+}
+
 /// Slopes of tangent-space normals [Mik20 listing 2]; m = 0 is flat.
 Image slopes_of_normals(const Image& image, bool y_down) {
     Image slopes{image.width, image.height, 2, {}};
@@ -77,8 +103,12 @@ void append(TextureHeap& heap, const Image& level, Wrap wrap) {
 }  // namespace
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
-    const bool slopes = planned.kind == TexelKind::slope, normals = slopes && planned.use.content == Content::normal;
-    Image level = normals ? slopes_of_normals(image, planned.use.y_down) : image;
+    const bool slopes = planned.kind == TexelKind::slope, ready = slopes && planned.use.content != Content::height;
+    const bool whole = planned.region == std::array<double, 4>{0, 0, 1, 1};
+    Image level = whole ? image : cropped(image, planned.region);
+    if (ready)
+        level = planned.use.content == Content::normal ? slopes_of_normals(level, planned.use.y_down)
+                                                       : unpacked_slopes(level, planned.use.y_down);
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -86,7 +116,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        if (slopes && !normals)
+        if (slopes && !ready)
             append_slopes(heap, level, planned.use.wrap);
         else
             append(heap, level, planned.use.wrap);
@@ -103,9 +133,17 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
+    std::map<std::pair<std::filesystem::path, ImageUse>, Image> atlases;  // files of which only regions are used
     for (const PlannedTexture& texture : planned) {
-        const bool normals = texture.kind == TexelKind::slope && texture.use.content == Content::normal;
-        add_texture(heap, load_texture(texture.use.file, normals ? ImageUse::normal : ImageUse::scalar), texture);
+        const bool scalar = texture.kind != TexelKind::slope || texture.use.content == Content::height;
+        const ImageUse use = scalar ? ImageUse::scalar : ImageUse::normal;
+        if (texture.region == std::array<double, 4>{0, 0, 1, 1}) {
+            add_texture(heap, load_texture(texture.use.file, use), texture);
+            continue;
+        }
+        const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, use});
+        if (is_new) atlas->second = load_texture(texture.use.file, use);
+        add_texture(heap, atlas->second, texture);
     }
     heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
     return heap;

@@ -24,5 +24,6 @@ void read_height_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);
+void read_decals(Table& table, Layer& layer);
 
 }  // namespace wrinkle::scene

@@ -20,8 +20,8 @@ void read_resolve(Table&, Layer& layer) { layer.bump = ResolveLayer{}; }
 constexpr Kind<Layer> kinds[] = {
     {NormalMapLayer::kind, read_normal_map}, {HeightMapLayer::kind, read_height_map},
     {TriplanarLayer::kind, read_triplanar},  {NoiseLayer::kind, read_noise},
-    {DecalLayer::kind, read_decal},          {ConstantLayer::kind, read_constant},
-    {ResolveLayer::kind, read_resolve},
+    {DecalLayer::kind, read_decal},          {DecalsLayer::kind, read_decals},
+    {ConstantLayer::kind, read_constant},    {ResolveLayer::kind, read_resolve},
 };
 
 }  // namespace

@@ -55,6 +55,7 @@ public:
         if (here.reflected) out.marked |= Marked::back_facing;
 
         Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, std::nullopt};
+        if (frame_.has("object")) s.object = frame_.plane("object")[i];
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};
             if (!s.uv) out.marked |= Marked::no_uv_derivative;

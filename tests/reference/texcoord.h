@@ -15,6 +15,7 @@ struct Surfel {
     Vec<T> normal;
     ScreenDerivative<T> d;
     std::optional<TexCoord<T>> uv;  ///< the UV plane; nothing without plane or derivative
+    std::optional<double> object{};  ///< the object's index, where the frame has it
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.

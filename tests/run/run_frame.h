@@ -94,13 +94,15 @@ inline Scene data_scene(const std::string& name) {
 inline reference::Images images_of(const Scene& scene) {
     reference::Images images;
     const auto add = [&](const fs::path& file, Content content) {
-        Image image = load_texture(file, content == Content::normal ? ImageUse::normal : ImageUse::scalar);
+        Image image = load_texture(file, content == Content::height ? ImageUse::scalar : ImageUse::normal);
         images[file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
     };
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
                 if constexpr (requires { bump.texture; }) add(bump.texture.file, bump.texture.content);
+                if constexpr (requires { bump.textures; })
+                    for (const TextureUse& use : bump.textures) add(use.file, use.content);
             },
             layer.bump);
         if (layer.mask.texture) add(layer.mask.texture->file, Content::height);
