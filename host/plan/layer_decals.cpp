@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "plan/decal_order.h"
@@ -78,6 +77,13 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
     table.scale = at.layer.blend == Blend::subtract ? -at.layer.scale : at.layer.scale;
     plan.projectors = last;
 
+    // Row numbers stand in the text only where they must: a table of another length is the same program.
+    const auto is_table = [](const Layer& layer) { return std::holds_alternative<DecalsLayer>(layer.bump); };
+    const std::string another_table =
+        std::ranges::count_if(at.emitter.scene.layers, is_table) > 1
+            ? fmt::format("                if (number < {}u || number >= {}u) continue;  // of another layer\n", first, last)
+            : "";
+
     const bool facing = at.emitter.options.view_footprint;
     at.section.reads.insert({"p", "dh_dp"});
     at.section.writes.insert("dh_dp");
@@ -95,8 +101,7 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
             uint end = begin + lists[WR_LIST_WORDS * bin + WR_LIST_COUNT];
             for (uint i = begin; i < end; ++i) {{
                 uint number = entries[i];
-                if (number < {}u || number >= {}u) continue;  // another layer's
-                global const wr_projector *decal = projectors + number;
+{}                global const wr_projector *decal = projectors + number;
                 wr_projected in = wr_project(decal, p);
                 mask touched = here & in.inside;
                 if (!wr_any(touched)) continue;
@@ -109,7 +114,7 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
         }}
         dh_dp = wr_fma(sum, m, dh_dp);
 )",
-        first, last, facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, table),
+        another_table, facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, table),
         at.layer.footprint
             ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
             : "0");

@@ -1,5 +1,7 @@
 #include "run/scatter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -119,6 +121,10 @@ private:
     std::vector<std::span<const float>> normal_, position_;
 };
 
+/// To the digits that tables need and no more, so that files stay small.
+double rounded(double v) { return std::stod(fmt::format("{:.8g}", v)); }
+Vec3 rounded(const Vec3& v) { return {rounded(v[0]), rounded(v[1]), rounded(v[2])}; }
+
 /// Any unit vector perpendicular to n, turned by `angle` about it.
 Vec3 tangent(const Vec3& n, double angle) {
     const Vec3 a = normalize(cross(std::abs(n[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, n)), b = cross(n, a);
@@ -149,15 +155,16 @@ std::vector<Projector> scatter_decals(const ScatterOptions& options, const Frame
         const double column = static_cast<double>(draw.below(options.atlas[0])), columns = options.atlas[0];
         const double line = static_cast<double>(draw.below(options.atlas[1])), lines = options.atlas[1];
         row.region = {column / columns, line / lines, (column + 1) / columns, (line + 1) / lines};
-        row.center = surface->position;
-        row.axis_x = tangent(surface->normal, draw.between(0, 2 * std::numbers::pi));
-        row.axis_y = cross(surface->normal, row.axis_x);
+        row.center = rounded(surface->position);
+        const Vec3 axis_x = tangent(surface->normal, draw.between(0, 2 * std::numbers::pi));
+        row.axis_x = rounded(axis_x);
+        row.axis_y = rounded(cross(surface->normal, axis_x));
         const double half =
-            draw.between(options.half_size[0], options.half_size[1]) * (options.pixels ? surface->pixel : 1);
-        row.half_size = {half, half, half * options.thickness};
+            rounded(draw.between(options.half_size[0], options.half_size[1]) * (options.pixels ? surface->pixel : 1));
+        row.half_size = {half, half, rounded(half * options.thickness)};
         if (row.shape == ProjectorShape::cone)  // the surface cuts it in the middle, where it is half as wide
             row.half_size = {2 * half, 2 * half, 2 * half};
-        row.scale = half * options.depth;
+        row.scale = rounded(half * options.depth);
         row.mode = options.mode;
         row.opacity = options.opacity;
     }
