@@ -35,6 +35,7 @@ struct DecalMeasurement {
     int lanes = 0;
     bool replace = false;
     bool plain = true;  ///< plain C++ too
+    bool processor_time = false;  ///< time of all cores together, not of the wall: for machines that others use too
 };
 
 /// Tables of different sizes that cover as many pixels as often, timed turn by turn with plain C++.

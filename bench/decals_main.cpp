@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
     app.add_option("--device", device_name, "OpenCL device; see \"wrinkle devices\"");
     app.add_flag("--replace", wanted.replace, "decals that replace by priority");
     app.add_flag("--no-plain", no_plain, "without plain C++");
+    app.add_flag("--processor-time", wanted.processor_time,
+                 "time of all cores together, for machines that others use too; set OMP_WAIT_POLICY=passive");
     CLI11_PARSE(app, argc, argv);
     wanted.plain = !no_plain;
     try {

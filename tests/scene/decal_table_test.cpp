@@ -1,4 +1,5 @@
 // Tables of decals: what they hold, and what is said of mistakes in them.
+#include <algorithm>
 #include <chrono>
 
 #include "tests/scene/scene_folder.h"
