@@ -41,7 +41,7 @@ std::vector<Projector> rows_of(const BenchFrame& frame, const DecalMeasurement& 
     ScatterOptions options;
     options.count = count;
     options.pixels = true;
-    options.spacing = 0.35 * half_size;
+    options.spacing = 0.25 * half_size;
     options.half_size = {half_size, half_size};
     options.textures = 3;
     options.mode = wanted.replace ? ProjectorMode::replace : ProjectorMode::add;
@@ -165,7 +165,8 @@ Entrant prepare(const Device& device, const BenchFrame& frame, const DecalMeasur
     const double pixels = static_cast<double>(frame.pixels());
     double half = std::sqrt(wanted.coverage * pixels / (2.5 * static_cast<double>(count)));
     for (int round = 0; round < 3; ++round) {  // until as many pixels are covered as wanted
-        e.resident = std::make_unique<Resident>(device, scene_of(rows_of(frame, wanted, count, half)), frame, wanted.lanes);
+        e.resident =
+            std::make_unique<Resident>(device, scene_of(rows_of(frame, wanted, count, half)), frame, wanted.lanes);
         e.lists = {DecalBins::kTileWidth, DecalBins::kTileHeight, {}};
         const Coverage c = coverage_of(*e.resident, frame, e.lists.lists, e.row.bin_megabytes);
         e.row.coverage = c.per_pixel;
@@ -178,8 +179,8 @@ Entrant prepare(const Device& device, const BenchFrame& frame, const DecalMeasur
     e.row.name = fmt::format("{} decals of {:.0f} pixels", e.row.decals, 2 * half);
     e.row.bin_megabytes /= 1e6;
     if (wanted.plain)
-        e.plain = std::make_unique<baseline::DecalTable>(layer, 1.0, frame.frame.size, frame.frame.camera,
-                                                         images_of(layer));
+        e.plain =
+            std::make_unique<baseline::DecalTable>(layer, 1.0, frame.frame.size, frame.frame.camera, images_of(layer));
     return e;
 }
 
@@ -196,7 +197,8 @@ std::vector<DecalRow> measure_decals(const Device& device, const DecalMeasuremen
     const auto spans = frame.spans();
 
     std::ifstream text(WRINKLE_SOURCE_DIR "/bench/kernels/memory.cl");
-    const BuiltProgram built = build_program(device, {std::istreambuf_iterator<char>(text), {}}, {device.info.lanes, false});
+    const BuiltProgram built =
+        build_program(device, {std::istreambuf_iterator<char>(text), {}}, {device.info.lanes, false});
     cl::Kernel copy(built.program, "wr_copy");
     for (cl_uint i = 0; i < 3; ++i) {
         copy.setArg(i, empty.in.planes().at(fmt::format("normal.{}", "xyz"[i])));
@@ -206,10 +208,11 @@ std::vector<DecalRow> measure_decals(const Device& device, const DecalMeasuremen
     const std::size_t items = (pixels / static_cast<std::size_t>(device.info.lanes) + 64) / 64 * 64;
 
     std::vector<Contender> contenders{{"empty", [&] { empty.run(); }}, {"copy", [&] {
-                                          device.queue.enqueueNDRangeKernel(copy, cl::NullRange, cl::NDRange(items),
-                                                                            cl::NDRange(64));
-                                          device.queue.finish();
-                                      }}};
+                                                                            device.queue.enqueueNDRangeKernel(
+                                                                                copy, cl::NullRange, cl::NDRange(items),
+                                                                                cl::NDRange(64));
+                                                                            device.queue.finish();
+                                                                        }}};
     for (Entrant& e : entrants) {
         contenders.push_back({"pass", [&] { e.resident->run(); }});
         contenders.push_back({"bins", [&] { e.resident->bin(); }});

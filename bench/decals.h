@@ -34,7 +34,7 @@ struct DecalMeasurement {
     int repetitions = 5;
     int lanes = 0;
     bool replace = false;
-    bool plain = true;  ///< plain C++ too
+    bool plain = true;            ///< plain C++ too
     bool processor_time = false;  ///< time of all cores together, not of the wall: for machines that others use too
 };
 

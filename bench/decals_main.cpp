@@ -29,10 +29,12 @@ int main(int argc, char** argv) {
         const std::vector<bench::DecalRow> rows = bench::measure_decals(device, wanted);
         const std::size_t pixels = std::size_t{wanted.size.width} * wanted.size.height;
         const auto ns = [&](const bench::Timing& t) { return t.median / static_cast<double>(pixels) * 1e9; };
-        fmt::print("{}, {} x {}, {} repetitions; copy {:.2f} ns/pixel, the pass without decals {:.2f}\n", device.info.name,
-                   wanted.size.width, wanted.size.height, wanted.repetitions, ns(rows[0].copy), ns(rows[0].empty));
-        fmt::print("  {:<32}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}{:>9}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "", "coverage", "ns/pixel",
-                   "spread", "x first", "bins", "listed", "bins MB", "camera", "ns/decal", "plain", "ratio", "p99 deg");
+        fmt::print("{}, {} x {}, {} repetitions; copy {:.2f} ns/pixel, the pass without decals {:.2f}\n",
+                   device.info.name, wanted.size.width, wanted.size.height, wanted.repetitions, ns(rows[0].copy),
+                   ns(rows[0].empty));
+        fmt::print("  {:<32}{:>9}{:>9}{:>8}{:>9}{:>8}{:>8}{:>9}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "", "coverage",
+                   "ns/pixel", "spread", "x first", "bins", "listed", "bins MB", "camera", "ns/decal", "plain", "ratio",
+                   "p99 deg");
         for (const bench::DecalRow& r : rows)
             fmt::print(
                 "  {:<32}{:>9.2f}{:>9.2f}{:>7.0f}%{:>9.2f}{:>7.1f}%{:>8.2f}{:>9.1f}{:>7.0f}ms{:>9.2f}{:>10.2f}{:>9.2f}x"

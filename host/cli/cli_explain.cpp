@@ -48,8 +48,8 @@ void print_bins(const Plan& plan, const BinReport& bins) {
 void print_json(const Plan& plan, double operations, const std::optional<BinReport>& bins) {
     nlohmann::json lists;
     if (bins)
-        lists = {{"rows", plan.projectors},   {"bytes", bins->bytes},     {"tiles", bins->tiles},
-                 {"touched", bins->touched},  {"entries", bins->entries}, {"longest", bins->longest},
+        lists = {{"rows", plan.projectors},     {"bytes", bins->bytes},     {"tiles", bins->tiles},
+                 {"touched", bins->touched},    {"entries", bins->entries}, {"longest", bins->longest},
                  {"inherited", bins->inherited}};
     nlohmann::json sections = nlohmann::json::array();
     for (const SectionSummary& section : plan.sections)

@@ -43,8 +43,9 @@ void scatter(ScatterArguments arguments) {
     const std::vector<Projector> rows = scatter_decals(options, frame, {pixels.begin(), pixels.end()});
     save_decals(arguments.file, rows);
     fmt::print("wrote {}: {} decals{}\n", arguments.file.string(), rows.size(),
-               rows.size() < options.count ? fmt::format("; {} did not fit with that spacing", options.count - rows.size())
-                                           : "");
+               rows.size() < options.count
+                   ? fmt::format("; {} did not fit with that spacing", options.count - rows.size())
+                   : "");
 }
 
 }  // namespace
@@ -81,9 +82,8 @@ void add_scatter(CLI::App& app) {
         ->expected(2)
         ->check(CLI::Range(1, 10'000));
     command->add_option("--shapes", options.shapes, "shapes to draw from: box, sphere, cone")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, ProjectorShape>{{"box", ProjectorShape::box},
-                                                                                 {"sphere", ProjectorShape::sphere},
-                                                                                 {"cone", ProjectorShape::cone}}));
+        ->transform(CLI::CheckedTransformer(std::map<std::string, ProjectorShape>{
+            {"box", ProjectorShape::box}, {"sphere", ProjectorShape::sphere}, {"cone", ProjectorShape::cone}}));
     command->add_flag("--replace", arguments->replace, "decals replace those before them instead of adding up");
     command->add_option("--opacity", options.opacity, "of each")->capture_default_str()->check(CLI::Range(0.0, 1.0));
     command->callback([arguments] { scatter(*arguments); });

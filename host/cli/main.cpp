@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_devices(app);
     try {
         app.parse(argc, argv);
-        if (app.get_subcommands().empty()) throw CLI::RequiredError("A command (run, info, explain, scatter or devices)");
+        if (app.get_subcommands().empty())
+            throw CLI::RequiredError("A command (run, info, explain, scatter or devices)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());

@@ -15,18 +15,19 @@ namespace {
 constexpr double kDecal = 90;  // expected operations, for the one decal that a pixel of an average table lies in
 
 /// Gives every row its texture: one for each region of an image that is used, wrapped as it is used.
-std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& layer) {
+std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& layer, const std::string& who) {
     std::map<std::tuple<std::uint32_t, std::array<double, 4>, Wrap>, std::uint32_t> known;
     std::vector<PlannedDecals::Image> images;
     images.reserve(layer.rows->size());
     for (const Projector& row : *layer.rows) {
         if (row.texture >= layer.textures.size())
-            throw Error(fmt::format("a decal names texture {}; the layer has {}", row.texture, layer.textures.size()));
+            throw Error(
+                fmt::format("{}: a row names texture {}; the layer has {}", who, row.texture, layer.textures.size()));
         TextureUse use = layer.textures[row.texture];
         use.wrap = row.wrap;
         use.upscale = Upscale::smooth;
-        const auto [found, is_new] = known.try_emplace({row.texture, row.region, row.wrap},
-                                                       static_cast<std::uint32_t>(plan.textures.size()));
+        const auto [found, is_new] =
+            known.try_emplace({row.texture, row.region, row.wrap}, static_cast<std::uint32_t>(plan.textures.size()));
         if (is_new) plan.textures.push_back({use, TexelKind::slope, row.region});
         images.push_back({found->second, use.content == Content::height});
     }
@@ -73,7 +74,7 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
     PlannedDecals& table = plan.tables.emplace_back();
     table.rows = l.rows;
     table.order = decal_order(*l.rows);
-    table.images = plan_images(plan, l);
+    table.images = plan_images(plan, l, at.who);
     table.scale = at.layer.blend == Blend::subtract ? -at.layer.scale : at.layer.scale;
     plan.projectors = last;
 
@@ -81,7 +82,8 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
     const auto is_table = [](const Layer& layer) { return std::holds_alternative<DecalsLayer>(layer.bump); };
     const std::string another_table =
         std::ranges::count_if(at.emitter.scene.layers, is_table) > 1
-            ? fmt::format("                if (number < {}u || number >= {}u) continue;  // of another layer\n", first, last)
+            ? fmt::format("                if (number < {}u || number >= {}u) continue;  // of another layer\n", first,
+                          last)
             : "";
 
     const bool facing = at.emitter.options.view_footprint;

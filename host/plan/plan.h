@@ -65,7 +65,7 @@ struct PlannedDecals {
         std::uint32_t texture = 0;  ///< number in the texture table
         bool height = false;        ///< slopes are per unit of texture, not unitless
     };
-    std::vector<Image> images;         ///< of each row
+    std::vector<Image> images;          ///< of each row
     std::vector<std::uint32_t> hashes;  ///< Cryptomatte, of each row; empty where no row has one
     double scale = 1;                   ///< of the layer, signed
 };
@@ -97,7 +97,7 @@ struct Plan {
     std::vector<PlannedDecals> tables;
     std::size_t projectors = 0;          ///< rows of all tables together
     std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors are binned to
-    bool neighbours = false;  ///< reads pixels of the rows above and below
+    bool neighbours = false;             ///< reads pixels of the rows above and below
     std::vector<SectionSummary> sections;
     double bytes = 0;  ///< expected per pixel: planes read and written once
 };

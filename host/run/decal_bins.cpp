@@ -72,7 +72,8 @@ void DecalBins::make_room(std::uint32_t supers) {
     if (supers <= rooms_for_) return;
     rooms_for_ = supers;
     const std::uint64_t tiles = std::uint64_t{supers} * kTilesOfSuper;
-    const std::uint64_t lists = limit_ > 0 ? limit_ : std::uint64_t{kEntriesOfTile} * tiles + 4 * std::uint64_t{decals_};
+    const std::uint64_t lists =
+        limit_ > 0 ? limit_ : std::uint64_t{kEntriesOfTile} * tiles + 4 * std::uint64_t{decals_};
     capacity_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(decals_ + lists, kMostEntries));
     room_bytes_ = capacity_ * (sizeof(cl_uint) + sizeof(cl_ushort));
     entries_ = cl::Buffer(device_.context, CL_MEM_READ_WRITE, capacity_ * sizeof(cl_uint));
@@ -135,8 +136,7 @@ BinReport DecalBins::read(std::uint32_t width, std::uint32_t rows,
                           std::vector<std::vector<std::uint32_t>>* lists) const {
     std::vector<cl_uint> words(std::size_t{supers_} * kTilesOfSuper * kListWords), entries(capacity_);
     device_.queue.enqueueReadBuffer(lists_[0], CL_TRUE, 0, words.size() * sizeof(cl_uint), words.data());
-    if (lists)
-        device_.queue.enqueueReadBuffer(entries_, CL_TRUE, 0, entries.size() * sizeof(cl_uint), entries.data());
+    if (lists) device_.queue.enqueueReadBuffer(entries_, CL_TRUE, 0, entries.size() * sizeof(cl_uint), entries.data());
     BinReport report;
     report.bytes = table_bytes_ + room_bytes_;
     for (std::uint32_t y = 0; y < (rows + kTileHeight - 1) / kTileHeight; ++y)

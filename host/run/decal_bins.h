@@ -17,7 +17,7 @@ struct BinReport {
     std::uint32_t inherited = 0;           ///< that took a parent's list, for want of room
     std::uint64_t entries = 0;             ///< of all tiles' lists
     std::uint32_t longest = 0;
-    std::uint64_t bytes = 0;               ///< of tables, bounds and lists on the device
+    std::uint64_t bytes = 0;  ///< of tables, bounds and lists on the device
 };
 
 /// Bins the decals of a plan's tables to tiles of the frame, on the device, before the kernels that evaluate them:

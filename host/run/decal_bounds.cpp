@@ -11,8 +11,8 @@ namespace {
 
 using scene::cross, scene::dot, scene::normalize, scene::subtract;
 
-constexpr float kNothing = 3e37f;      // kernels/bins: WR_BIN_NOTHING
-constexpr double kSlack = 1.00002;     // kernels/constants: WR_BIN_BOX_SLACK
+constexpr float kNothing = 3e37f;        // kernels/bins: WR_BIN_NOTHING
+constexpr double kSlack = 1.00002;       // kernels/constants: WR_BIN_BOX_SLACK
 constexpr std::size_t kBoxNumbers = 16;  // kernels/bins: WR_BOX_NUMBERS
 
 Vec3 vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }

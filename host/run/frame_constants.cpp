@@ -13,7 +13,8 @@ namespace {
 using scene::cross, scene::dot, scene::normalize, scene::subtract;
 
 static_assert(sizeof(wr_frame) == 48 * sizeof(double) && sizeof(wr_decal) == 25 * sizeof(double) &&
-                  sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
+                  sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_projector) == 32 * sizeof(double) &&
+                  sizeof(wr_lighting) == 10 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
 void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }

@@ -69,7 +69,8 @@ struct Surface {
 
 class Pixels {
 public:
-    Pixels(const Frame& frame, const HostPlanes& planes) : frame_(frame), rays_(pinhole_rays(frame.camera, frame.size)) {
+    Pixels(const Frame& frame, const HostPlanes& planes)
+        : frame_(frame), rays_(pinhole_rays(frame.camera, frame.size)) {
         for (const char* name : {"normal.x", "normal.y", "normal.z"}) normal_.push_back(plane(planes, name));
         if (planes.contains("depth") && rays_)
             depth_ = plane(planes, "depth");

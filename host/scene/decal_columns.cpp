@@ -74,14 +74,14 @@ std::string whole(std::string_view field, std::uint32_t& out) {
     return sound ? std::string{} : "must be a whole number, 0 or more";
 }
 
-#define NUMBER(NAME, MEMBER, RANGE)                                                      \
-    {                                                                                    \
+#define NUMBER(NAME, MEMBER, RANGE)                                                        \
+    {                                                                                      \
         NAME, [](std::string_view f, Projector& p) { return number(f, p.MEMBER, RANGE); }, \
-            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }               \
+            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }                 \
     }
-#define CHOICE(NAME, MEMBER, NAMES)                                                      \
-    {                                                                                    \
-        NAME, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); }, \
+#define CHOICE(NAME, MEMBER, NAMES)                                                           \
+    {                                                                                         \
+        NAME, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); },    \
             [](const Projector& p) { return std::string(NAMES[static_cast<int>(p.MEMBER)]); } \
     }
 

@@ -116,8 +116,8 @@ std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_
                 continue;
             }
             if (const std::string wrong = header[column]->read(field, row); !wrong.empty())
-                problems.add(number, fmt::format("column {} is {}; it {}", quote(header[column]->name), quote(field),
-                                                 wrong));
+                problems.add(number,
+                             fmt::format("column {} is {}; it {}", quote(header[column]->name), quote(field), wrong));
         }
         check_row(row, textures, number, problems);
     }

@@ -26,9 +26,7 @@ void read_decals(Table& table, Layer& layer) {
     if (std::filesystem::path file; table.read_file("file", file)) {
         try {
             bump.rows = std::make_shared<const std::vector<Projector>>(load_decals(file, bump.textures.size()));
-        } catch (const Error& error) {
-            table.complain("file", fmt::format("cannot be used:\n{}", error.what()));
-        }
+        } catch (const Error& error) { table.complain("file", fmt::format("cannot be used:\n{}", error.what())); }
     }
     read_weight(table, layer);
     layer.bump = std::move(bump);

@@ -26,9 +26,10 @@ namespace wrinkle {
 
 // --- Textures ------------------------------------------------------------------------------------------------------
 
-/// What the texels mean: height in [0,1] units of `scale`, a tangent normal, or (in tables of decals) slopes along s and t.
+/// What the texels mean: height in [0,1] units of `scale`, a tangent normal, or (in tables of decals) slopes along s
+/// and t.
 enum class Content { height, normal, slope };
-enum class Upscale { plain, smooth };   ///< [Mik20 listing 16] isUpscaleHQ false or true
+enum class Upscale { plain, smooth };  ///< [Mik20 listing 16] isUpscaleHQ false or true
 enum class Wrap { repeat, clamp };
 
 struct TextureUse {
@@ -120,22 +121,22 @@ enum class ProjectorMode { add, replace };
 /// One row of a table of decals.
 struct Projector {
     ProjectorShape shape = ProjectorShape::box;
-    std::uint32_t texture = 0;                   ///< into the layer's textures
-    std::array<double, 4> region{0, 0, 1, 1};    ///< of that texture: s and t from, s and t to; whole texels
-    Vec3 center{};                               ///< of the box, world
-    Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};       ///< as those of DecalLayer
-    Vec3 half_size{0.5, 0.5, 0.5};               ///< metres; 0 or less: touches nothing
-    double scale = 1;                            ///< metres for a height of 1; a plain factor for normals and slopes
-    Vec3 falloff{0.1, 0.1, 0.1};                 ///< share that fades: box x, y, z; sphere radius; cone radius, -, length
+    std::uint32_t texture = 0;                 ///< into the layer's textures
+    std::array<double, 4> region{0, 0, 1, 1};  ///< of that texture: s and t from, s and t to; whole texels
+    Vec3 center{};                             ///< of the box, world
+    Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};     ///< as those of DecalLayer
+    Vec3 half_size{0.5, 0.5, 0.5};             ///< metres; 0 or less: touches nothing
+    double scale = 1;                          ///< metres for a height of 1; a plain factor for normals and slopes
+    Vec3 falloff{0.1, 0.1, 0.1};               ///< share that fades: box x, y, z; sphere radius; cone radius, -, length
     std::array<double, 2> angle_fade{0.25, 0.5};  ///< as DecalLayer's
-    bool two_sided = false;                      ///< false: nothing on surfaces that face away from the projector
+    bool two_sided = false;                       ///< false: nothing on surfaces that face away from the projector
     Wrap wrap = Wrap::clamp;
-    std::array<double, 2> repeat{1, 1};          ///< times the region repeats over the box, with Wrap::repeat
+    std::array<double, 2> repeat{1, 1};  ///< times the region repeats over the box, with Wrap::repeat
     ProjectorMode mode = ProjectorMode::add;
     double opacity = 1;
-    double priority = 0;                         ///< lower ones first; equal ones in the order of the table
-    std::optional<double> object{};              ///< only pixels with this object index
-    std::string cryptomatte{};                   ///< only this object, by its coverage; name, or "#" and 8 hex digits
+    double priority = 0;             ///< lower ones first; equal ones in the order of the table
+    std::optional<double> object{};  ///< only pixels with this object index
+    std::string cryptomatte{};       ///< only this object, by its coverage; name, or "#" and 8 hex digits
 };
 
 /// Many decals. Those that add are independent of order; one that replaces takes g to g + (d - g) weight of what the

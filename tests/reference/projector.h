@@ -63,8 +63,7 @@ void add_projector(const Projector& row, const LayerTexture<T>& texture, const S
     T cosine = dot(s.normal, box.z);
     if (row.two_sided) cosine = std::abs(cosine);
     if (cosine <= 0) return;
-    const T weight =
-        at.weight * decal_angle_fade(cosine, T(row.angle_fade[0]), T(row.angle_fade[1])) * T(row.opacity);
+    const T weight = at.weight * decal_angle_fade(cosine, T(row.angle_fade[0]), T(row.angle_fade[1])) * T(row.opacity);
     if (weight == 0) return;
 
     const bool tiles = row.wrap == Wrap::repeat;
@@ -75,7 +74,8 @@ void add_projector(const Projector& row, const LayerTexture<T>& texture, const S
     };
     const TexCoord<T> c{{at.st.x * repeat.x, at.st.y * repeat.y}, {step(s.d.dp_dx), step(s.d.dp_dy)}};
     const Vec2<T> slope = texture.slope(c, footprint);
-    // The gradient of h(s(p), t(p)), axis by axis. A slope without unit is one over the metres of the image where it is.
+    // The gradient of h(s(p), t(p)), axis by axis. A slope without unit is one over the metres of the image where it
+    // is.
     const T width = 2 * at.size * box.half_size.x / repeat.x, height = 2 * at.size * box.half_size.y / repeat.y;
     const bool unitless = texture.content != Content::height;
     const T ds = slope.x * (unitless ? width : T(1)), dt = slope.y * (unitless ? height : T(1));

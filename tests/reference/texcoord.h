@@ -14,7 +14,7 @@ struct Surfel {
     Vec<T> position;  ///< world
     Vec<T> normal;
     ScreenDerivative<T> d;
-    std::optional<TexCoord<T>> uv;  ///< the UV plane; nothing without plane or derivative
+    std::optional<TexCoord<T>> uv;   ///< the UV plane; nothing without plane or derivative
     std::optional<double> object{};  ///< the object's index, where the frame has it
 };
 

@@ -2,8 +2,10 @@
 #include "run/decal_bins.h"
 
 #include <random>
+#include <set>
 
 #include "run/pass_impl.h"
+#include "run/scatter.h"
 #include "tests/reference/projector.h"
 #include "tests/run/run_frame.h"
 
@@ -180,11 +182,37 @@ TEST(DecalBins, ShareParentsListsWhenThereIsNoRoom) {
 }
 
 TEST(DecalBins, ListFewThatDoNotTouch) {
-    const HostFrame frame = small_frame();
-    const Found found = brute_force(frame, scene_of(on_surfaces(frame, 400, 0.2, 0.6, 11)));
+    const HostFrame frame(plane_frame(test_camera(), {480, 270}, normalize(V{0.1, -0.2, 1})), test_camera());
+    ScatterOptions options;
+    options.count = 400;
+    options.pixels = true;
+    options.half_size = {8, 20};
+    options.shapes = {ProjectorShape::box, ProjectorShape::sphere, ProjectorShape::cone};
+    const Found found = brute_force(frame, scene_of(scatter_decals(options, frame.frame, frame.planes())));
     fmt::print("{} entries for {} that touch: {:.2f}\n", found.bins.entries, found.touching,
                double(found.bins.entries) / double(found.touching));
+    EXPECT_EQ(found.lost, 0u);
     EXPECT_LE(double(found.bins.entries), 1.5 * double(found.touching));
+}
+
+TEST(Scatter, GivesTheSameRowsForTheSameSeedAndKeepsTheirDistance) {
+    const HostFrame frame = small_frame();
+    ScatterOptions options;
+    options.count = 200;
+    options.spacing = 0.2;
+    const auto rows = scatter_decals(options, frame.frame, frame.planes());
+    const auto again = scatter_decals(options, frame.frame, frame.planes());
+    ASSERT_EQ(rows.size(), 200u);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].center, again[i].center);
+        EXPECT_EQ(rows[i].axis_x, again[i].axis_x);
+        for (std::size_t k = 0; k < i; ++k) {
+            const V gap = reference::from_array<double>(rows[i].center) - reference::from_array<double>(rows[k].center);
+            EXPECT_GE(length(gap), 0.2 - 1e-6) << i << ", " << k;
+        }
+    }
+    options.seed = 2;
+    EXPECT_NE(scatter_decals(options, frame.frame, frame.planes()).front().center, rows.front().center);
 }
 
 TEST(DecalTables, OfDecalsThatAddDoNotDependOnTheirOrder) {
@@ -237,6 +265,17 @@ TEST(DecalTables, AgreeWithTheSameDecalsAsLayers) {
     EXPECT_LE(largest_difference(one, other), 2e-4);
 }
 
+TEST(DecalTables, InDoubleAndInSplitKernels) {
+    const HostFrame frame = small_frame();
+    const Scene scene = scene_of(on_surfaces(frame, 200, 0.1, 0.8, 25));
+    const Truth truth(frame, scene);
+    expect_within("float", normal_error(evaluate_on(frame, scene), truth), {3e-6, 3e-3, 3e-2}, "degrees");
+    expect_within("split", normal_error(evaluate_on(frame, scene, {.split = true}), truth), {3e-6, 3e-3, 3e-2},
+                  "degrees");
+    Pass pass = evaluate(device(), scene, frame.frame, {.fp64 = true});
+    expect_within("double", normal_error(run<double>(pass, frame), truth), {3e-6, 2e-5, 2e-4}, "degrees");
+}
+
 TEST(DecalTables, InBandsAndOnOtherLanes) {
     const HostFrame frame = small_frame();
     const Scene scene = scene_of(on_surfaces(frame, 800, 0.05, 0.5, 24));
@@ -254,7 +293,8 @@ TEST(DecalTables, InBandsAndOnOtherLanes) {
             device().queue.enqueueWriteBuffer(in[name], CL_TRUE, 0, count * width * sizeof(float),
                                               frame.pixels.at(name).data() + first * width);
         }
-        for (const std::string& name : pass.outputs()) out[name] = cl::Buffer(device().context, CL_MEM_READ_WRITE, bytes);
+        for (const std::string& name : pass.outputs())
+            out[name] = cl::Buffer(device().context, CL_MEM_READ_WRITE, bytes);
         pass.enqueue(in, out, {.first = first, .count = count}).wait();
         for (const std::string& name : pass.outputs())
             device().queue.enqueueReadBuffer(out[name], CL_TRUE, 0, count * width * sizeof(float),

@@ -20,7 +20,8 @@ protected:
     }
     void expect_refused(const std::string& text, const std::vector<std::string>& parts) const {
         const std::string message = refusal(text);
-        for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+        for (const std::string& part : parts)
+            EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
     }
 };
 
@@ -58,7 +59,8 @@ TEST_F(DecalTable, NamesLineAndColumnOfAMistake) {
     expect_refused(head + "1,2,3,1\n", {"decals.csv:2: ", "4 fields", "8 columns"});
     expect_refused(head + "1,,3,1,0,box,,\n", {"decals.csv:2: ", "\"y\" is empty"});
     expect_refused(head + "1,nan,3,1,0,box,,\n1,1e300,3,1,0,box,,\n", {"decals.csv:2: ", "decals.csv:3: "});
-    expect_refused("x,y,half\n1,2,3\n", {"decals.csv:1: ", "unknown column \"half\"", "\"half_x\"", "\"z\" is missing"});
+    expect_refused("x,y,half\n1,2,3\n",
+                   {"decals.csv:1: ", "unknown column \"half\"", "\"half_x\"", "\"z\" is missing"});
     expect_refused("x,y,z,x\n", {"\"x\" is there twice"});
     expect_refused("", {"decals.csv", "names the columns"});
     expect_refused("x,y,z,axis_x_x,axis_x_z\n0,0,0,0,0\n", {"must not be parallel, nor zero"});
@@ -119,7 +121,8 @@ TEST_F(DecalTable, BelongsToALayer) {
     write("decals.csv", "x,y,z\n1,2,3\n");
     const Scene scene = load_with(
         "[[layer]]\nkind = \"decals\"\nfile = \"decals.csv\"\n"
-        "textures = [{ file = \"textures/wall.png\" }, { file = \"textures/wall.png\", content = \"normal\", y = \"-\" }]\n");
+        "textures = [{ file = \"textures/wall.png\" }, { file = \"textures/wall.png\", content = \"normal\", y = \"-\" "
+        "}]\n");
     const auto& layer = std::get<DecalsLayer>(scene.layers.at(0).bump);
     ASSERT_EQ(layer.textures.size(), 2u);
     EXPECT_EQ(layer.textures[1].content, Content::normal);
