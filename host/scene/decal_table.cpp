@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -59,7 +60,10 @@ std::vector<const DecalColumn*> read_header(std::string_view line, std::uint32_t
         const DecalColumn* column =
             found == known.end() ? nullptr : &decal_columns()[static_cast<std::size_t>(found - known.begin())];
         if (!column)
-            problems.add(number, fmt::format("unknown column {}{}", quote(name), did_you_mean(name, known)));
+            problems.add(number, fmt::format("unknown column {}{}", quote(name),
+                                             did_you_mean(name, known).empty()
+                                                 ? fmt::format("; known columns: {}", fmt::join(known, ", "))
+                                                 : did_you_mean(name, known)));
         else if (std::ranges::find(header, column) != header.end())
             problems.add(number, fmt::format("the column {} is there twice", quote(name)));
         header.push_back(column);
