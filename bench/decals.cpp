@@ -146,7 +146,7 @@ Coverage coverage_of(Resident& resident, const BenchFrame& frame, std::vector<st
 std::map<std::filesystem::path, baseline::Image> images_of(const DecalsLayer& layer) {
     std::map<std::filesystem::path, baseline::Image> images;
     for (const TextureUse& use : layer.textures) {
-        Image image = load_texture(use.file, use.content == Content::height ? ImageUse::scalar : ImageUse::normal);
+        Image image = load_bump(use);
         images[use.file] = {image.width, image.height, image.channels, std::move(image.texels)};
     }
     return images;

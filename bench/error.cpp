@@ -14,23 +14,10 @@ namespace {
 /// Every texture a scene names, as the reference takes it.
 reference::Images reference_images(const Scene& scene) {
     reference::Images images;
-    const auto add = [&](const std::filesystem::path& file, ImageUse use) {
-        const Image image = load_texture(file, use);
-        images[file.string()] = {image.width, image.height, image.channels, image.texels};
-    };
-    for (const Layer& layer : scene.layers) {
-        std::visit(
-            [&](const auto& bump) {
-                if constexpr (requires { bump.texture; })
-                    add(bump.texture.file,
-                        bump.texture.content == Content::normal ? ImageUse::normal : ImageUse::scalar);
-                if constexpr (requires { bump.textures; })
-                    for (const TextureUse& use : bump.textures)
-                        add(use.file, use.content == Content::height ? ImageUse::scalar : ImageUse::normal);
-            },
-            layer.bump);
-        if (layer.mask.texture) add(layer.mask.texture->file, ImageUse::scalar);
-    }
+    for_each_texture(scene, [&](const TextureUse& use) {
+        const Image image = load_bump(use);
+        images[use.file.string()] = {image.width, image.height, image.channels, image.texels};
+    });
     return images;
 }
 
@@ -52,23 +39,12 @@ ReferenceSample::ReferenceSample(const Scene& scene, const BenchFrame& frame, st
 
 ErrorStats ReferenceSample::compare(const Normals& normals) const {
     std::vector<double> degrees;
-    ErrorStats stats;
-    stats.samples = pixels_.size();
     for (const Pixel& want : pixels_) {
         const double x = normals.x[want.i], y = normals.y[want.i], z = normals.z[want.i];
-        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-            ++stats.not_finite;
-            continue;
-        }
         const double cx = y * want.z - z * want.y, cy = z * want.x - x * want.z, cz = x * want.y - y * want.x;
         degrees.push_back(std::atan2(std::hypot(cx, cy, cz), x * want.x + y * want.y + z * want.z) * 57.29577951308232);
     }
-    if (degrees.empty()) return stats;
-    std::ranges::sort(degrees);
-    stats.median = degrees[degrees.size() / 2];
-    stats.p99 = degrees[degrees.size() * 99 / 100];
-    stats.max = degrees.back();
-    return stats;
+    return statistics(std::move(degrees));
 }
 
 }  // namespace wrinkle::bench

@@ -3,15 +3,10 @@
 #include <cstdint>
 #include <string>
 
+#include "error_stats.h"
 #include "frame.h"
 
 namespace wrinkle::bench {
-
-/// Angle between normals and the double reference, degrees, over a seeded sample of valid pixels.
-struct ErrorStats {
-    double median = 0, p99 = 0, max = 0;
-    std::size_t samples = 0, not_finite = 0;
-};
 
 /// Normals of one contender, plane by plane.
 struct Normals {
@@ -19,7 +14,8 @@ struct Normals {
     explicit Normals(std::size_t pixels) : x(pixels), y(pixels), z(pixels) {}
 };
 
-/// Reference normals of a scene at sampled pixels; the reference is written from the papers (tests/reference).
+/// Reference normals of a scene at a seeded sample of valid pixels; errors are angles in degrees; the reference is
+/// written from the papers (tests/reference).
 class ReferenceSample {
 public:
     ReferenceSample(const Scene& scene, const BenchFrame& frame, std::size_t count, std::uint32_t seed);

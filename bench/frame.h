@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/texture_file.h"
 #include "run/plane_buffers.h"
 #include "wrinkle/passes.h"
 
@@ -19,9 +22,30 @@ struct BenchFrame {
     std::map<std::string, std::span<const float>> spans() const;
 };
 
-/// The scene's G-buffer resampled to `size`: bilinear where four neighbours belong to one object without a seam of the
-/// texture coordinates, else the nearest; depth as its reciprocal, which is linear on planes.
-BenchFrame resampled_frame(const Scene& scene, Size size);
+/// A scene's G-buffer at any size: bilinear where four neighbours belong to one object without a seam of the texture
+/// coordinates, else the nearest; depth as its reciprocal, which is linear on planes.
+class Resampler {
+public:
+    explicit Resampler(const Scene& scene);
+
+    /// The whole frame, every plane.
+    BenchFrame frame(Size size) const;
+    /// Rows [first, first + count) of a frame of `size`.
+    std::map<std::string, std::vector<float>> rows(Size size, std::uint32_t first, std::uint32_t count,
+                                                   const std::vector<std::string>& names) const;
+    /// What a pass may count on; of the G-buffer's own size.
+    const Frame& description() const { return frame_; }
+
+private:
+    bool smooth(const std::array<std::size_t, 4>& pixels) const;  ///< four pixels may be blended
+
+    Frame frame_;
+    Size size_;
+    std::map<std::string, std::vector<float>> planes_;
+};
+
+/// Calls `visit` with every texture of a scene.
+void for_each_texture(const Scene& scene, const std::function<void(const TextureUse&)>& visit);
 
 /// The scene as all contenders take it: no lighting, Cryptomatte names as hashes.
 Scene without_lighting(Scene scene, const Frame& frame);

@@ -1,70 +1,113 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <set>
 
-#include "contenders.h"
+#include "compare.h"
+#include "functions.h"
+#include "memory.h"
+#include "report.h"
 #include "run/render.h"
+#include "scenes.h"
 #include "wrinkle/error.h"
 
 namespace {
 
 using namespace wrinkle;
+namespace fs = std::filesystem;
 
-/// Time of a warm run outside reading, kernels and writing, the median of several.
-double warm_run_outside(const Scene& scene, const std::filesystem::path& directory) {
-    std::vector<double> outside;
-    for (int i = 0; i < 4; ++i) {
-        RenderOptions options;
-        options.directory = directory;
-        const double seconds = render(scene, options).outside;
-        if (i > 0) outside.push_back(seconds);
+const std::vector<std::string> all_parts{"memory", "functions", "demo", "scenes", "sizes"};
+
+struct Arguments {
+    std::vector<std::string> only;
+    std::string function, device, lanes;
+    fs::path scene = WRINKLE_SOURCE_DIR "/data/scenes/courtyard.toml", json, report, compare;
+    Size size{3840, 2160};
+    int repetitions = 9;
+    bool quick = false;
+};
+
+CLI::App& describe(CLI::App& app, Arguments& a) {
+    app.add_option("--only", a.only, fmt::format("parts to measure, of {}", fmt::join(all_parts, ", ")))
+        ->delimiter(',')
+        ->check(CLI::IsMember(all_parts));
+    app.add_option("--function", a.function, "of the functions, only this one; on 1, 4, 8 and 16 lanes");
+    app.add_option("--scene", a.scene, "scene of the part demo")->capture_default_str();
+    app.add_option("--width", a.size.width, "pixels of the parts demo and scenes")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 65536));
+    app.add_option("--height", a.size.height, "pixels")->capture_default_str()->check(CLI::Range(16, 65536));
+    app.add_option("--repetitions", a.repetitions, "times that each contender runs; medians are reported")
+        ->capture_default_str()
+        ->check(CLI::Range(3, 1000));
+    app.add_flag("--quick", a.quick,
+                 "small frames, errors of functions without their speeds: for accuracy, not for speed");
+    app.add_option("--device", a.device, "OpenCL device; see \"wrinkle devices\"");
+    app.add_option("--json", a.json, "also write the run as JSON");
+    app.add_option("--report", a.report, "also write run.json, run.csv, charts and index.html to this folder");
+    app.add_option("--compare", a.compare,
+                   "flag what became slower or less accurate than in this run, by more than the spreads explain; "
+                   "exit code 1 when accuracy did");
+    return app;
+}
+
+void measure(const Device& device, const Arguments& a, bench::Run& run) {
+    const auto wanted = [&](const char* part) {
+        return a.only.empty() ? std::string_view(part) != "sizes" || !a.quick
+                              : std::ranges::find(a.only, part) != a.only.end();
+    };
+    const Size size = a.quick ? Size{960, 540} : a.size;
+    bench::measure_memory(device, size, run);  // always: the ceilings that shares are of
+    if (wanted("functions")) {
+        bench::FunctionBench options{.only = a.function, .repetitions = run.repetitions, .speed = !a.quick};
+        if (!a.function.empty()) options.lanes = {1, 4, 8, 16};
+        std::ranges::move(bench::measure_functions(device, options), std::back_inserter(run.measurements));
     }
-    return bench::timing(outside).median;
+    if (wanted("demo")) bench::measure_scene(device, a.scene, size, true, run);
+    if (wanted("scenes")) {
+        std::set<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(WRINKLE_SOURCE_DIR "/bench/scenes")) files.insert(entry.path());
+        for (const fs::path& file : files) bench::measure_scene(device, file, size, false, run);
+    }
+    if (wanted("sizes"))
+        bench::measure_sizes(device, a.scene, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Measures wrinkle's speed beside its error, against plain C++ in the same run."};
-    std::filesystem::path scene_file = WRINKLE_SOURCE_DIR "/data/scenes/courtyard.toml", json;
-    Size size{3840, 2160};
-    int repetitions = 9;
-    std::string device_name;
-    app.add_option("--scene", scene_file, "scene to measure")->capture_default_str();
-    app.add_option("--width", size.width, "pixels")->capture_default_str()->check(CLI::Range(16, 65536));
-    app.add_option("--height", size.height, "pixels")->capture_default_str()->check(CLI::Range(16, 65536));
-    app.add_option("--repetitions", repetitions, "times that each contender runs; medians are reported")
-        ->capture_default_str()
-        ->check(CLI::Range(3, 1000));
-    app.add_option("--device", device_name, "OpenCL device; see \"wrinkle devices\"");
-    app.add_option("--json", json, "also write the report as JSON");
-    CLI11_PARSE(app, argc, argv);
+    CLI::App app{
+        "Measures wrinkle's speed beside its error, against plain C++ and the machine's ceilings in the same run.",
+        "wrinkle bench"};
+    Arguments arguments;
+    describe(app, arguments);
     try {
-        const Device device = Device::open(device_name);
-        const Scene file_scene = load_scene(scene_file);
-        bench::Report report;
-        report.device = fmt::format("{} ({} lanes)", device.info.name, device.info.lanes);
-        report.processor = bench::processor_name();
-        report.size = size;
-        report.repetitions = repetitions;
-        {
-            const bench::BenchFrame frame = bench::resampled_frame(file_scene, size);
-            bench::measure_demo(device, bench::without_lighting(file_scene, frame.frame), frame, report);
-        }
-        bench::measure_memory(device, report);
-        const auto directory = std::filesystem::temp_directory_path() / "wrinkle_bench";
-        report.run_outside = warm_run_outside(file_scene, directory);
-        std::filesystem::remove_all(directory);
-        bench::print(report);
-        if (!json.empty()) {
-            std::ofstream out(json);
-            out << bench::to_json(report).dump(2) << '\n';
-            if (!out.flush()) throw Error(fmt::format("cannot write {}", json.string()));
-        }
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "wrinkle bench: {}\nRun \"wrinkle bench --help\" for what it can do.\n", error.what());
+        return 2;
+    }
+    try {
+        const Device device = Device::open(arguments.device);
+        bench::Run run;
+        if (!arguments.compare.empty())
+            bench::read_run(arguments.compare);  // a bad file is found out before minutes pass
+        run.device =
+            fmt::format("{}, {} compute units, {}", device.info.name, device.info.compute_units, device.info.driver);
+        run.processor = bench::processor_name();
+        for (int i = 1; i < argc; ++i) run.command += (i > 1 ? " " : "") + std::string(argv[i]);
+        run.repetitions = arguments.repetitions;
+        measure(device, arguments, run);
+        bench::print(run);
+        if (!arguments.json.empty()) bench::write_json(run, arguments.json);
+        if (!arguments.report.empty()) bench::write_report(run, arguments.report);
+        if (!arguments.compare.empty() && !bench::compare(bench::read_run(arguments.compare), run)) return 1;
     } catch (const Error& error) {
-        fmt::print(stderr, "wrinkle_bench: {}\n", error.what());
+        fmt::print(stderr, "wrinkle bench: {}\n", error.what());
         return 1;
     }
     return 0;

@@ -4,88 +4,113 @@
 
 #include <fstream>
 
+#include "wrinkle/error.h"
+
 namespace wrinkle::bench {
 
 namespace {
 
-double ns_per_pixel(const Report& report, double seconds) {
-    return seconds / (static_cast<double>(report.size.width) * report.size.height) * 1e9;
+namespace fs = std::filesystem;
+
+void write_text(const fs::path& file, const std::string& text) {
+    const fs::path beside = fs::path(file) += ".part";
+    std::ofstream out(beside, std::ios::binary);
+    out << text;
+    out.close();
+    std::error_code failed;
+    if (out) fs::rename(beside, file, failed);
+    if (!out || failed) throw Error(fmt::format("cannot write {}", file.string()));
 }
 
-void print_rows(const Report& report, const std::vector<Row>& rows) {
-    fmt::print("  {:<34}{:>10}{:>9}   {:>10}{:>10}{:>10}{:>7}\n", "", "ns/pixel", "spread", "median", "p99", "max",
-               "inf");
-    for (const Row& row : rows)
-        fmt::print("  {:<34}{:>10.2f}{:>8.1f}%   {:>10.1e}{:>10.1e}{:>10.1e}{:>7}\n", row.name,
-                   ns_per_pixel(report, row.seconds.median), 100 * row.seconds.spread, row.error.median, row.error.p99,
-                   row.error.max, row.error.not_finite);
+std::size_t not_finite(const Measurement& m) {
+    std::size_t count = m.error.not_finite;
+    for (const auto& [category, stats] : m.hard) count += stats.not_finite;
+    return count;
 }
 
-void print_ratio(const char* what, const Timing& slow, const Timing& fast) {
-    const Ratio r = ratio(slow, fast);
-    if (r.meaningful)
-        fmt::print("  {:<58}{:>7.2f}x\n", what, r.value);
-    else
-        fmt::print("  {:<58}{:>8}\n", what, "not told apart: the spread is larger than the effect");
+double worst_hard(const Measurement& m) {
+    double worst = 0;
+    for (const auto& [category, stats] : m.hard) worst = std::max(worst, stats.max);
+    return worst;
 }
 
-nlohmann::json rows_json(const Report& report, const std::vector<Row>& rows) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const Row& row : rows)
-        list.push_back(
-            {{"name", row.name},
-             {"ns_per_pixel", ns_per_pixel(report, row.seconds.median)},
-             {"spread", row.seconds.spread},
-             {"error_degrees", {{"median", row.error.median}, {"p99", row.error.p99}, {"max", row.error.max}}},
-             {"not_finite", row.error.not_finite},
-             {"samples", row.error.samples}});
-    return list;
+std::string csv(const Run& run) {
+    std::string text =
+        "group,name,variant,lanes,pixels,ns_per_pixel,spread,gb_per_s,share_of_copy,gflop_per_s,share_of_fma,"
+        "error_unit,inputs,error_median,error_p99,error_max,samples,not_finite,documented_error,hash\n";
+    for (const Measurement& m : run.measurements) {
+        const bool timed = m.seconds.median > 0;
+        const auto row = [&](const std::string& inputs, const ErrorStats& e) {
+            text += fmt::format("{},\"{}\",\"{}\",{},{},", m.group, m.name, m.variant, m.lanes, m.pixels);
+            if (timed)
+                text += fmt::format("{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g},", m.ns_per_pixel(), m.seconds.spread,
+                                    m.gb_per_s(), m.gb_per_s() / run.ceilings.copy_gb_s, m.gflop_per_s(),
+                                    m.gflop_per_s() / run.ceilings.fma_gflop_s);
+            else
+                text += ",,,,,,";
+            text += fmt::format("{},\"{}\",{:.4g},{:.4g},{:.4g},{},{},{:.3g},{}\n", m.unit, inputs, e.median, e.p99,
+                                e.max, e.samples, e.not_finite, m.bound, m.hash);
+        };
+        row("regular", m.error);
+        for (const auto& [category, stats] : m.hard) row(category, stats);
+    }
+    return text;
+}
+
+void print_ratios(const Run& run) {
+    bool title = false;
+    for (const Measurement& slow : run.measurements)
+        for (const Measurement& fast : run.measurements) {
+            if (slow.group != "scene" || fast.group != "scene" || slow.name != fast.name || fast.variant != "fused" ||
+                slow.variant == "fused")
+                continue;
+            if (!title) fmt::print("\nratios\n"), title = true;
+            const Ratio r = ratio(slow.seconds, fast.seconds);
+            const std::string what = fmt::format("{}: {} / fused", slow.name, slow.variant);
+            if (r.meaningful)
+                fmt::print("  {:<58}{:>7.2f}x\n", what, r.value);
+            else
+                fmt::print("  {:<58} not told apart: the spread is larger than the effect\n", what);
+        }
 }
 
 }  // namespace
 
-std::string processor_name() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    return "unknown";
+void print(const Run& run) {
+    fmt::print("{}; {}; {} repetitions, medians\n", run.processor, run.device, run.repetitions);
+    fmt::print("ceilings: copy {:.1f} GB/s, triad {:.1f} GB/s, fma {:.0f} Gflop/s\n", run.ceilings.copy_gb_s,
+               run.ceilings.triad_gb_s, run.ceilings.fma_gflop_s);
+    std::string group;
+    for (const Measurement& m : run.measurements) {
+        if (m.group != group) {
+            group = m.group;
+            fmt::print("\n{:<35}{:<22}{:>6}{:>10}{:>8}{:>7}{:>7}   {:>9}{:>9}{:>9}{:>9}{:>5}  {}\n", group, "", "lanes",
+                       "ns/pixel", "spread", "copy", "fma", "median", "p99", "max", "hard", "inf", "error in");
+        }
+        fmt::print("  {:<33}{:<22}{:>6}", m.name, m.variant, m.lanes);
+        if (m.seconds.median > 0)
+            fmt::print("{:>10.2f}{:>7.1f}%{:>6.0f}%{:>6.0f}%", m.ns_per_pixel(), 100 * m.seconds.spread,
+                       100 * m.gb_per_s() / run.ceilings.copy_gb_s, 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s);
+        else
+            fmt::print("{:>10}{:>8}{:>7}{:>7}", "-", "-", "-", "-");
+        fmt::print("   {:>9.1e}{:>9.1e}{:>9.1e}{:>9.1e}{:>5}  {}\n", m.error.median, m.error.p99, m.error.max,
+                   worst_hard(m), not_finite(m), m.unit);
+    }
+    print_ratios(run);
 }
 
-void print(const Report& report) {
-    fmt::print("{}; {}; {} x {}; {} repetitions, medians; error in degrees against the double reference, {} pixels\n\n",
-               report.processor, report.device, report.size.width, report.size.height, report.repetitions,
-               report.rows.front().error.samples);
-    fmt::print("the demo scene\n");
-    print_rows(report, report.rows);
-    print_ratio("plain C++ / fused", report.rows[1].seconds, report.rows[0].seconds);
-    print_ratio("one kernel a layer / fused", report.rows[2].seconds, report.rows[0].seconds);
-    fmt::print("\neach layer alone, above the empty scene\n");
-    print_rows(report, report.layers);
-    fmt::print("\nmemory\n");
-    fmt::print("  {:<58}{:>7.1f} GB/s\n", "copy kernel", report.copy_gb_s);
-    fmt::print("  {:<58}{:>7.1f} GB/s, {:.0f}% of copy\n", "resolve", report.resolve_gb_s,
-               100 * report.resolve_gb_s / report.copy_gb_s);
-    fmt::print("  {:<58}{:>7.1f} GB/s\n", "resolve in plain C++", report.baseline_resolve_gb_s);
-    fmt::print("\nstart\n");
-    fmt::print("  {:<58}{:>7.2f} s\n", "build, compiled, first call included", report.cold_build);
-    fmt::print("  {:<58}{:>7.2f} s\n", "build, from the cache, first call included", report.warm_build);
-    fmt::print("  {:<58}{:>7.3f} s\n", "warm `wrinkle run` outside reading, kernels, writing", report.run_outside);
-}
+void write_json(const Run& run, const fs::path& file) { write_text(file, to_json(run).dump(1) + "\n"); }
 
-nlohmann::json to_json(const Report& report) {
-    return {{"processor", report.processor},
-            {"device", report.device},
-            {"width", report.size.width},
-            {"height", report.size.height},
-            {"repetitions", report.repetitions},
-            {"scene", rows_json(report, report.rows)},
-            {"layers", rows_json(report, report.layers)},
-            {"copy_gb_per_s", report.copy_gb_s},
-            {"resolve_gb_per_s", report.resolve_gb_s},
-            {"baseline_resolve_gb_per_s", report.baseline_resolve_gb_s},
-            {"cold_build_seconds", report.cold_build},
-            {"warm_build_seconds", report.warm_build},
-            {"warm_run_outside_seconds", report.run_outside}};
+void write_report(const Run& run, const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), failed.message()));
+    write_json(run, folder / "run.json");
+    write_text(folder / "run.csv", csv(run));
+    const auto svgs = charts(run);
+    for (const auto& [name, svg] : svgs) write_text(folder / (name + ".svg"), svg);
+    write_text(folder / "index.html", html(run, svgs));
+    fmt::print("\nwritten: {}\n", (folder / "index.html").string());
 }
 
 }  // namespace wrinkle::bench

@@ -1,36 +1,23 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
+#include <filesystem>
 
-#include "error.h"
-#include "measure.h"
+#include "record.h"
 
 namespace wrinkle::bench {
 
-/// One line: how long, how wrong.
-struct Row {
-    std::string name;
-    Timing seconds;
-    ErrorStats error;
-};
+void print(const Run& run);
 
-/// Everything that a run measured.
-struct Report {
-    std::string device, processor;
-    Size size;
-    int repetitions = 0;
-    std::vector<Row> rows;    ///< the demo scene by each contender
-    std::vector<Row> layers;  ///< each layer alone, its share above the empty scene
-    double copy_gb_s = 0, resolve_gb_s = 0, baseline_resolve_gb_s = 0;
-    double cold_build = 0, warm_build = 0;  ///< seconds
-    double run_outside = 0;                 ///< seconds of a warm `wrinkle run` outside reading, kernels and writing
-};
+void write_json(const Run& run, const std::filesystem::path& file);
 
-void print(const Report& report);
-nlohmann::json to_json(const Report& report);
-/// The processor's name as the system gives it.
-std::string processor_name();
+/// run.json, run.csv, the charts as SVG, and index.html, which holds all of it in one file.
+void write_report(const Run& run, const std::filesystem::path& folder);
+
+/// The charts, as SVG texts by name: "pareto-NAME" for every function and scene with more than one variant, "roofline",
+/// "sizes". Throws Error when gnuplot is missing or fails.
+std::map<std::string, std::string> charts(const Run& run);
+
+/// One self-contained page: the machine, the charts, every measurement.
+std::string html(const Run& run, const std::map<std::string, std::string>& charts);
 
 }  // namespace wrinkle::bench

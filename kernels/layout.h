@@ -14,6 +14,8 @@ typedef struct {
     // Any projection: columns of the inverse view-projection-screen matrix, eye-relative, and their w
     WR_SCALAR c0[3], c1[3], c2[3], c3[3], w[4];
     WR_SCALAR forward[3];  // along the rays of a parallel projection, per unit of view depth
+    // What a float leaves of d0 ... w, for exact variants; not to be added in double
+    WR_SCALAR d0_low[3], dx_low[3], dy_low[3], c0_low[3], c1_low[3], c2_low[3], c3_low[3], w_low[4];
 } wr_frame;
 
 // A decal's box. q = to_box (p - center) is in [-1,1]^3 inside.
@@ -70,5 +72,9 @@ typedef struct {
 #define WR_TEXTURE_LEVELS 2
 #define WR_TEXTURE_OFFSETS 3  // of each level's first float in the texel buffer
 #define WR_TEXTURE_WORDS 19
+// ... and of a volume, in the same table
+#define WR_VOLUME_BLOCKS 0  // of 8^3 cells along x, y, z
+#define WR_VOLUME_FIRST 3   // index of the first voxel of the first block, signed
+#define WR_VOLUME_INDEX 6   // of the texel that holds the first of the blocks' offsets
 
 #endif

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wrinkle/camera.h"
+#include "wrinkle/error.h"
 #include "wrinkle/scene.h"
 
 /// The same layers as a good programmer writes them in plain C++ from the listings of [Mik20]: float, float3 structs,
@@ -16,6 +17,11 @@
 /// It is what the kernels must beat, so whatever costs nothing in clarity is done: constants per scene, slopes instead
 /// of texels, padded mips, no work where a mask is zero. It is not vectorised by hand.
 namespace wrinkle::baseline {
+
+/// A layer that exists as kernels only.
+struct Unsupported : Error {
+    using Error::Error;
+};
 
 struct Image {
     int width = 0, height = 0, channels = 0;
@@ -28,7 +34,8 @@ using PlaneMap = std::map<std::string, std::span<const float>>;
 class Evaluator {
 public:
     /// Prepares everything that does not depend on the pixels. `textures` by the file names used in the scene,
-    /// `cryptomatte` by object name; "#" and 8 hex digits need no entry. Throws Error for what is missing.
+    /// `cryptomatte` by object name; "#" and 8 hex digits need no entry. Throws Error for what is missing, Unsupported
+    /// for layers that it does not know.
     Evaluator(const Scene& scene, Size size, const Camera& camera,
               const std::map<std::filesystem::path, Image>& textures,
               const std::map<std::string, std::uint32_t>& cryptomatte = {});

@@ -51,11 +51,10 @@ PreparedLayer LayerBuilder::layer(const Layer& in) {
     out.mask = mask(in.mask);
     std::visit(
         [&](const auto& kind) {
-            using Kind = std::decay_t<decltype(kind)>;
-            if constexpr (std::is_same_v<Kind, DecalsLayer>)
-                throw Error("baseline: tables of decals have an evaluator of their own (decals.h)");
-            else if constexpr (!std::is_same_v<Kind, ResolveLayer>)
+            if constexpr (requires { out.bump = bump(kind); })
                 out.bump = bump(kind);
+            else
+                throw Unsupported("the plain C++ has no layers of kind " + std::string(kind.kind));
         },
         in.bump);
     return out;

@@ -15,6 +15,33 @@ kernel void wr_copy(global const float *restrict x, global const float *restrict
     wr_stream(wr_load(z, at), out_z, at);
 }
 
+/// a + 3 b, as in the STREAM benchmark: two planes in, one out.
+kernel void wr_triad(global const float *restrict a, global const float *restrict b, global WR_SCALAR *restrict out,
+                     uint pixels)
+{
+    size_t at = get_global_id(0) * WR_LANES;
+    if (at >= pixels) return;
+    wr_stream(fma(wr_load(b, at), (real)(3), wr_load(a, at)), out, at);
+}
+
+#define WR_FMA_ROUNDS 256
+#define WR_FMA_CHAINS 12
+
+/// Independent chains of fma, enough of them to hide its latency: nothing but arithmetic.
+kernel void wr_fma_chains(global const float *restrict in, global WR_SCALAR *restrict out, uint pixels)
+{
+    size_t at = get_global_id(0) * WR_LANES;
+    if (at >= pixels) return;
+    real v = wr_load(in, at), chain[WR_FMA_CHAINS];
+    _Pragma("unroll") for (int k = 0; k < WR_FMA_CHAINS; ++k) chain[k] = v + (WR_SCALAR)(k);
+    for (int i = 0; i < WR_FMA_ROUNDS; ++i) {
+        _Pragma("unroll") for (int k = 0; k < WR_FMA_CHAINS; ++k) chain[k] = fma(chain[k], v, v);
+    }
+    real sum = 0;
+    _Pragma("unroll") for (int k = 0; k < WR_FMA_CHAINS; ++k) sum += chain[k];
+    wr_store(sum, out, at);
+}
+
 kernel void wr_resolve_only(global const float *restrict n_x, global const float *restrict n_y,
                             global const float *restrict n_z, global const float *restrict g_x,
                             global const float *restrict g_y, global const float *restrict g_z,

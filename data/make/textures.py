@@ -5,6 +5,7 @@
 Heights are 16-bit grey, 0 the lowest; normal maps 8-bit RGB, green up unless the name says down.
 """
 import sys
+import tempfile
 
 import numpy as np
 import OpenImageIO as oiio
@@ -98,3 +99,59 @@ save("seal_height", np.clip(ring + 0.8 * star * smoothstep(r, 0.3, 0.4), 0, 1), 
 g1, g2 = cells(256, 5, 41, 0.95)
 wobble = 0.05 * rough(256, 42, 1.6, 3, 40)
 save("cracks_height", 1 - (1 - smoothstep(g2 - g1 + wobble, 0.02, 0.16)) * (1 - smoothstep(r, 0.55, 0.95)), "uint16")
+
+# The torus of render_gbuffer.py as a bake gives it: object-space normals of a rope, 16 strands that turn around it.
+v, u = np.meshgrid(1 - (np.arange(128) + 0.5) / 128, (np.arange(256) + 0.5) / 256, indexing="ij")
+a, b = 2 * np.pi * (u + 0.5), 2 * np.pi * (v + 0.5)
+major, minor, depth = 0.9, 0.36, 0.06
+strand = np.pi * (16 * u + 3 * v)
+dh = depth * np.pi * np.sin(strand) * np.cos(strand) / np.sqrt(np.sin(strand) ** 2 + 0.05)     # h = depth |sin(strand)|
+ring, along_a = major + minor * np.cos(b), np.stack([-np.sin(a), np.cos(a), 0 * a], -1)
+along_b = np.stack([-np.cos(a) * np.sin(b), -np.sin(a) * np.sin(b), np.cos(b)], -1)
+n = np.stack([np.cos(a) * np.cos(b), np.sin(a) * np.cos(b), np.sin(b)], -1)
+n -= (16 * dh / (2 * np.pi * ring))[..., None] * along_a + (3 * dh / (2 * np.pi * minor))[..., None] * along_b
+save("rope_object_normal", n / np.linalg.norm(n, axis=-1, keepdims=True) / 2 + 0.5, "uint8")
+
+# Rock again, as slopes: per texel, times 4, in [0,1]; red along u, green up.
+rock = rough(128, 23, 1.9, 2, 24)
+rock = 2 * unit(rock - 0.8 * np.abs(rough(128, 24, 1.8, 2, 16)))
+du, dv = (np.roll(rock, -1, 1) - np.roll(rock, 1, 1)) / 2, (np.roll(rock, 1, 0) - np.roll(rock, -1, 0)) / 2
+save("rock_slopes", np.stack([np.clip(4 * d, -1, 1) / 2 + 0.5 for d in (du, dv)] + [0 * du], -1), "uint8")
+
+# Ripples in sand as maketx --bumpslopes writes them, without its mips and its date.
+y, x = np.meshgrid((np.arange(64) + 0.5) / 64, (np.arange(64) + 0.5) / 64, indexing="ij")
+bend = 0.05 * np.sin(2 * np.pi * x) + 0.03 * np.sin(2 * np.pi * (2 * x + y))
+crest = 0.5 + 0.5 * np.sin(2 * np.pi * (6 * (y + bend)))
+options = oiio.ImageSpec()
+options.attribute("wrapmodes", "periodic,periodic")
+options.attribute("maketx:bumpformat", "height")
+with tempfile.TemporaryDirectory() as place:
+    file = oiio.ImageOutput.create("x.exr")
+    file.open(f"{place}/height.exr", oiio.ImageSpec(64, 64, 1, "float"))
+    file.write_image(np.ascontiguousarray(np.maximum(crest, 0)[..., None] ** 1.5, dtype=np.float32))
+    file.close()
+    oiio.ImageBufAlgo.make_texture(oiio.MakeTxBumpWithSlopes, f"{place}/height.exr", f"{place}/ripples.exr", options)
+    made = oiio.ImageBuf(f"{place}/ripples.exr")
+    spec = oiio.ImageSpec(64, 64, 6, "half")
+    spec.channelnames = made.spec().channelnames
+    spec.attribute("compression", "zip")
+    spec.attribute("uvslopes_scale", 0.0)
+    spec.attribute("DateTime", "2026:01:01 00:00:00")
+    file = oiio.ImageOutput.create("x.exr")
+    file.open(f"{folder}/ripples_bumpslopes.exr", spec)
+    file.write_image(made.get_pixels(oiio.FLOAT))
+    file.close()
+# Swells: three waves a side at most, 21 texels the shortest, so that no way of sampling them shows.
+save("swell_height", unit(rough(64, 51, 0.7, 1, 3)), "uint16")
+
+# Half balls: as heights of few texels, to be magnified, and as normals, whose slopes reach the steepest there are.
+def ball(size, radius):
+    x, y = np.meshgrid((np.arange(size) + 0.5) / size * 2 - 1, 1 - (np.arange(size) + 0.5) / size * 2, indexing="xy")
+    return x / radius, y / radius, np.sqrt(np.clip(1 - (x * x + y * y) / radius**2, 0, 1))
+
+
+save("ball_height", ball(32, 0.8)[2], "uint16")
+bx, by, bz = ball(128, 0.9)
+inside = bx * bx + by * by < 1
+save("ball_normal", np.stack([np.where(inside, bx, 0), np.where(inside, by, 0), np.where(inside, bz, 1)], -1) / 2 + 0.5,
+     "uint8")

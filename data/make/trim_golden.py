@@ -5,7 +5,7 @@
 Of every (set, category) COUNTS[set] rows are kept, spread evenly over the table, or all where there are fewer; a table
 without sets counts as one category. Lines are copied as they are, so numbers stay exactly as printed and `case` is
 the row's number in the full table. Listing 16 keeps the rows of TEXTURES, the small ones (16x16, 20x12, 1x8, with all
-their mips). Every category of the full table must remain, or it stops.
+their mips). Tables of meshes keep FACES faces with all their corners. Every category of the full table must remain, or it stops.
 """
 import sys
 from collections import defaultdict
@@ -13,10 +13,14 @@ from pathlib import Path
 
 COUNTS = {"regular": 16, "hard": 6, "": 48}
 TEXTURES = ("0", "2", "3")
+FACES = 40
 TABLES = """listing01_resolve listing02_tspace_to_deriv listing03_surfgrad_tbn listing04_genbasis_tb
             listing05_perturbed_normal listing06_scale_dependent listing08_volume_gradient listing09_prologue
-            listing10_screenderiv_noddxy listing13_triplanar listing14_triplanar_weights listing15_decal
-            listing16_deriv_from_heightmap listing16_textures perlin2002_demo_dnoise perlin2002_java_reference""".split()
+            listing10_screenderiv_noddxy listing11_project_vec_to_tex listing12_tex_offs_to_surface
+            listing13_triplanar listing14_triplanar_weights listing15_decal
+            listing16_deriv_from_heightmap listing16_textures perlin2002_demo_dnoise perlin2002_java_reference
+            mikktspace_torus_degenerate_tris mikktspace_torus_mirrored_uv_tris mikktspace_torus_quads
+            psrdnoise3_glsl""".split()
 
 full, folder = map(Path, sys.argv[1:])
 
@@ -38,6 +42,9 @@ def trimmed(columns, lines):
         groups[cell(line, "set"), cell(line, "category")].append(line)
     kept = set()
     for (kind, _), group in groups.items():
+        if "face" in columns:
+            faces = spread(list(dict.fromkeys(cell(line, "face") for line in group)), FACES)
+            group = [line for line in group if cell(line, "face") in faces]
         if "tex" in columns:
             group = [line for line in group if cell(line, "tex") in TEXTURES]
         kept.update(spread(group, COUNTS[kind]) if "case" in columns else group)

@@ -8,7 +8,12 @@ namespace wrinkle::cli {
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 void add_explain(CLI::App& app);
+void add_eval(CLI::App& app);
+void add_figures(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_scatter(CLI::App& app);
+/// bake-volume and bake-frame
+void add_bake(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace wrinkle::cli

@@ -20,7 +20,11 @@ int main(int argc, char** argv) {
         "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
         "  wrinkle scatter scene.toml -o decals.csv    place decals on a frame at random\n"
-        "  wrinkle devices                             where it can run\n",
+        "  wrinkle eval resolve < in.csv > out.csv     one kernel function over rows of numbers (wrinkle eval --list)\n"
+        "  wrinkle figures data/figures/*.toml         pictures side by side that show what a layer does\n"
+        "  wrinkle devices                             where it can run\n"
+        "  wrinkle bake-volume golden -o golden.vdb    a volume to try things on\n"
+        "  wrinkle bench --report out/bench            how fast and how wrong\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
     app.require_subcommand(0, 1);  // none at all is refused below, after arguments that mean nothing
@@ -29,11 +33,16 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_info(app);
     wrinkle::cli::add_explain(app);
     wrinkle::cli::add_scatter(app);
+    wrinkle::cli::add_eval(app);
+    wrinkle::cli::add_figures(app);
     wrinkle::cli::add_devices(app);
+    wrinkle::cli::add_bake(app);
+    wrinkle::cli::add_bench(app);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
-            throw CLI::RequiredError("A command (run, info, explain, scatter or devices)");
+            throw CLI::RequiredError(
+                "A command (run, info, explain, scatter, eval, figures, bake-volume, bake-frame, devices or bench)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());

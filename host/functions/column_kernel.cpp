@@ -29,61 +29,6 @@ std::vector<T> narrowed(const std::vector<double>& values) {
     return out;
 }
 
-template <class T>
-using Rows = std::vector<std::vector<T>>;
-
-/// A built kernel and what stays the same between its launches.
-template <class T>
-class Launcher {
-public:
-    Launcher(const Device& device, const ColumnKernel& kernel, const std::vector<std::string>& names, int lanes,
-             const ColumnData& data)
-        : device_(device),
-          outputs_(kernel.outputs.size()),
-          lanes_(static_cast<std::size_t>(lanes)),
-          built_(build_program(device, column_kernel_source(kernel, names, data), {lanes, std::is_same_v<T, double>})),
-          texels_(buffer_of(device, data.texels)),
-          textures_(buffer_of(device, data.textures)),
-          kernel_(built_.program, "wr_columns") {
-        kernel_.setArg(4, texels_);
-        kernel_.setArg(5, textures_);
-    }
-
-    /// Appends the results of `rows` rows to `results`.
-    void run(const Rows<T>& columns, std::size_t rows, const std::vector<double>& constants,
-             const std::vector<double>& records, Rows<T>& results) {
-        const std::size_t group = kGroup * kMostLanes, stride = (rows + group - 1) / group * group;
-        std::vector<T> in;
-        in.reserve(columns.size() * stride);
-        for (const std::vector<T>& column : columns) {
-            in.insert(in.end(), column.begin(), column.end());
-            in.insert(in.end(), stride - rows, column.empty() ? T{} : column.back());
-        }
-        const cl::Buffer out(device_.context, CL_MEM_WRITE_ONLY, outputs_ * stride * sizeof(T));
-        const cl::Buffer arguments[] = {buffer_of(device_, std::move(in)), out,
-                                        buffer_of(device_, narrowed<T>(constants)),
-                                        buffer_of(device_, narrowed<T>(records))};
-        for (cl_uint i = 0; i < std::size(arguments); ++i) kernel_.setArg(i, arguments[i]);
-        kernel_.setArg(6, static_cast<cl_uint>(stride));
-        kernel_.setArg(7, static_cast<cl_uint>(rows));
-        device_.queue.enqueueNDRangeKernel(kernel_, {}, stride / lanes_, kGroup);
-        for (std::size_t k = 0; k < outputs_; ++k) {
-            const std::size_t before = results[k].size();
-            results[k].resize(before + rows);
-            device_.queue.enqueueReadBuffer(out, CL_TRUE, k * stride * sizeof(T), rows * sizeof(T),
-                                            results[k].data() + before);
-        }
-        save_program(built_);
-    }
-
-private:
-    const Device& device_;
-    std::size_t outputs_, lanes_;
-    BuiltProgram built_;
-    cl::Buffer texels_, textures_;  // kernels do not hold on to their arguments
-    cl::Kernel kernel_;
-};
-
 std::vector<double> slice(const std::vector<double>& all, std::size_t per_row, std::size_t first, std::size_t last) {
     if (per_row == 0) return all;
     const auto at = [&](std::size_t row) { return all.begin() + static_cast<std::ptrdiff_t>(row * per_row); };
@@ -91,6 +36,56 @@ std::vector<double> slice(const std::vector<double>& all, std::size_t per_row, s
 }
 
 }  // namespace
+
+template <class T>
+ColumnProgram<T>::ColumnProgram(const Device& device, const ColumnKernel& kernel,
+                                const std::vector<std::string>& columns, int lanes, const ColumnData& data)
+    : device_(device),
+      outputs_(kernel.outputs.size()),
+      lanes_(static_cast<std::size_t>(lanes)),
+      built_(build_program(device, column_kernel_source(kernel, columns, data), {lanes, std::is_same_v<T, double>})),
+      texels_(buffer_of(device, data.texels)),
+      textures_(buffer_of(device, data.textures)),
+      kernel_(built_.program, "wr_columns") {
+    kernel_.setArg(4, texels_);
+    kernel_.setArg(5, textures_);
+}
+
+template <class T>
+void ColumnProgram<T>::upload(const std::vector<std::vector<T>>& columns, std::size_t rows,
+                              const std::vector<double>& constants, const std::vector<double>& records) {
+    const std::size_t group = kGroup * kMostLanes;
+    rows_ = rows, stride_ = (rows + group - 1) / group * group;
+    std::vector<T> in;
+    in.reserve(columns.size() * stride_);
+    for (const std::vector<T>& column : columns) {
+        in.insert(in.end(), column.begin(), column.end());
+        in.insert(in.end(), stride_ - rows, column.empty() ? T{} : column.back());
+    }
+    arguments_ = {buffer_of(device_, std::move(in)),
+                  cl::Buffer(device_.context, CL_MEM_READ_WRITE, outputs_ * stride_ * sizeof(T)),
+                  buffer_of(device_, narrowed<T>(constants)), buffer_of(device_, narrowed<T>(records))};
+    for (cl_uint i = 0; i < arguments_.size(); ++i) kernel_.setArg(i, arguments_[i]);
+    kernel_.setArg(6, static_cast<cl_uint>(stride_));
+    kernel_.setArg(7, static_cast<cl_uint>(rows_));
+}
+
+template <class T>
+void ColumnProgram<T>::enqueue() {
+    device_.queue.enqueueNDRangeKernel(kernel_, {}, stride_ / lanes_, kGroup);
+}
+
+template <class T>
+std::vector<std::vector<T>> ColumnProgram<T>::read() {
+    std::vector<std::vector<T>> results(outputs_, std::vector<T>(rows_));
+    for (std::size_t k = 0; k < outputs_; ++k)
+        device_.queue.enqueueReadBuffer(arguments_[1], CL_TRUE, k * stride_ * sizeof(T), rows_ * sizeof(T),
+                                        results[k].data());
+    return results;
+}
+
+template class ColumnProgram<float>;
+template class ColumnProgram<double>;
 
 std::string column_kernel_source(const ColumnKernel& kernel, const std::vector<std::string>& columns,
                                  const ColumnData& data) {
@@ -127,22 +122,24 @@ std::vector<std::vector<T>> run_columns(const Device& device, const ColumnKernel
     return guarded("evaluating columns", [&] {
         std::vector<std::string> names;
         for (const auto& [name, values] : columns) names.push_back(name);
-        Launcher<T> launcher(device, kernel, names, lanes, data);
+        ColumnProgram<T> program(device, kernel, names, lanes, data);
         const bool per_row = data.constants_per_row + data.records_per_row > 0;
         const std::size_t rows = columns.empty() ? 0 : columns.begin()->second.size(),
                           copies = per_row ? kMostLanes : 1, chunk = per_row ? kChunk : kLaunch;
-        Rows<T> results(kernel.outputs.size());
+        std::vector<std::vector<T>> results(kernel.outputs.size());
         for (std::size_t first = 0; first < rows; first += chunk) {
             const std::size_t last = std::min(first + chunk, rows);
-            Rows<T> part;
+            std::vector<std::vector<T>> part;
             for (const auto& [name, values] : columns) {
                 part.emplace_back();
                 for (std::size_t row = first; row < last; ++row)
                     part.back().insert(part.back().end(), copies, values[row]);
             }
-            Rows<T> out(results.size());
-            launcher.run(part, (last - first) * copies, slice(data.constants, data.constants_per_row, first, last),
-                         slice(data.records, data.records_per_row, first, last), out);
+            program.upload(part, (last - first) * copies, slice(data.constants, data.constants_per_row, first, last),
+                           slice(data.records, data.records_per_row, first, last));
+            program.enqueue();
+            const auto out = program.read();
+            program.save();
             for (std::size_t k = 0; k < out.size(); ++k)
                 for (std::size_t row = 0; row < last - first; ++row) results[k].push_back(out[k][row * copies]);
         }

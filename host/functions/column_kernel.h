@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "device/program.h"
 #include "wrinkle/device.h"
 
 namespace wrinkle {
@@ -30,6 +31,33 @@ struct ColumnData {
 /// The kernel's source for columns of these names.
 std::string column_kernel_source(const ColumnKernel& kernel, const std::vector<std::string>& columns,
                                  const ColumnData& data);
+
+/// A built kernel with its columns on the device: upload, enqueue as often as wanted, read. T is float or double, and
+/// so the kernel's numbers.
+template <class T>
+class ColumnProgram {
+public:
+    ColumnProgram(const Device& device, const ColumnKernel& kernel, const std::vector<std::string>& columns, int lanes,
+                  const ColumnData& data);
+
+    /// Columns in the order of the names, `rows` numbers each.
+    void upload(const std::vector<std::vector<T>>& columns, std::size_t rows, const std::vector<double>& constants,
+                const std::vector<double>& records);
+    void enqueue();
+    /// One vector of `rows` numbers for each output, once all that was enqueued is done.
+    std::vector<std::vector<T>> read();
+    /// Writes the program to the disk cache; after the first kernel ran.
+    void save() { save_program(built_); }
+    BuildSource source() const { return built_.source; }
+
+private:
+    Device device_;
+    std::size_t outputs_, lanes_, rows_ = 0, stride_ = 0;
+    BuiltProgram built_;
+    cl::Buffer texels_, textures_;  // kernels do not hold on to their arguments
+    std::vector<cl::Buffer> arguments_;
+    cl::Kernel kernel_;
+};
 
 /// One vector of numbers for each output; every column has as many rows. T is float or double, and so the kernel's.
 template <class T>

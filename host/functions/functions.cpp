@@ -48,7 +48,8 @@ void evaluate(const Device& device, const Function& function, const std::map<std
         throw Error(fmt::format("{}: {} rows of results for {} rows of input", function.name, wanted, rows));
     const bool fp64 = std::is_same_v<T, double>;
     if (fp64 && !device.info.fp64)
-        throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
+        throw Error(fmt::format("{} has no double precision (cl_khr_fp64); evaluate in float, or on another device",
+                                device.info.name));
     const int lanes = options.lanes != 0 ? options.lanes : std::min(device.info.lanes, fp64 ? 8 : 16);
     const ColumnKernel kernel = column_kernel(function, function.variant(fp64 ? Precision::fp64 : options.precision));
     const auto got = run_columns<T>(device, kernel, in, lanes, column_data(function, options.settings));
@@ -58,6 +59,11 @@ void evaluate(const Device& device, const Function& function, const std::map<std
 }
 
 }  // namespace
+
+std::string precision_name(Precision precision) {
+    const char* const names[] = {"fast", "standard", "exact", "double"};
+    return names[static_cast<int>(precision)];
+}
 
 std::vector<std::string> Parameter::columns() const {
     switch (shape) {
@@ -80,7 +86,8 @@ const FunctionVariant& Function::variant(Precision wanted) const {
 const std::vector<Function>& functions() {
     static const std::vector<Function> all = [] {
         std::vector<Function> table;
-        for (auto part : {surface_functions, source_functions, compose_functions})
+        for (auto part : {surface_functions, source_functions, noise_functions, volume_functions, compose_functions,
+                          prologue_functions, displacement_functions})
             for (Function& function : part()) table.push_back(std::move(function));
         return table;
     }();

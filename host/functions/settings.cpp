@@ -37,25 +37,6 @@ Count numbers_of(Kind kind) {
     }
 }
 
-const char* wanted_text(Kind kind) {
-    switch (kind) {
-        case Kind::number:
-            return "a number";
-        case Kind::vector:
-            return "3 numbers";
-        case Kind::camera:
-            return "a camera and the frame's size";
-        case Kind::height_texture:
-        case Kind::slope_texture:
-            return "an image file";
-        case Kind::projector:
-            return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
-        case Kind::lattice:
-            return "2 numbers, the frequency of the first octave and the lacunarity";
-    }
-    return "";
-}
-
 template <class Struct>
 void append(std::vector<double>& to, const Struct& from) {
     const auto* numbers = reinterpret_cast<const double*>(&from);
@@ -70,12 +51,43 @@ wr_decal decal_of(const std::vector<double>& v) {
     return decal_constants(decal, 1, 0, {});
 }
 
+/// FILE, or FILE#GRID.
+PlannedTexture volume_of(const std::filesystem::path& name, bool smooth) {
+    const std::string text = name.string();
+    const std::size_t hash = std::filesystem::exists(name) ? std::string::npos : text.rfind('#');
+    return {{.file = text.substr(0, hash)},
+            smooth ? TexelKind::volume_smooth : TexelKind::volume,
+            hash == std::string::npos ? "" : text.substr(hash + 1)};
+}
+
 void append_lattice(std::vector<double>& to, double frequency, double lacunarity) {
     for (std::size_t i = 0; i < kLatticeOctaves; ++i, frequency *= lacunarity)
         to.insert(to.end(), {0, 0, 0, frequency});
 }
 
 }  // namespace
+
+const char* wanted_text(Setting::Kind kind) {
+    switch (kind) {
+        case Kind::number:
+            return "a number";
+        case Kind::vector:
+            return "3 numbers";
+        case Kind::camera:
+            return "a camera and the frame's size";
+        case Kind::height_texture:
+        case Kind::slope_texture:
+            return "an image file";
+        case Kind::volume:
+        case Kind::smooth_volume:
+            return "a volume file (.vdb, .nvdb), or FILE#GRID";
+        case Kind::projector:
+            return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
+        case Kind::lattice:
+            return "2 numbers, the frequency of the first octave and the lacunarity";
+    }
+    return "";
+}
 
 SettingSize size_of(const Setting& setting) {
     switch (setting.kind) {
@@ -138,6 +150,11 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
                 textures.push_back(
                     {{.file = *file}, setting.kind == Kind::slope_texture ? TexelKind::slope : TexelKind::height});
                 break;
+            case Kind::volume:
+            case Kind::smooth_volume:
+                data.constants.push_back(static_cast<double>(textures.size()));
+                textures.push_back(volume_of(*file, setting.kind == Kind::smooth_volume));
+                break;
         }
     }
     if (!textures.empty()) {
@@ -176,6 +193,11 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
             case Kind::slope_texture:
                 value = fmt::format("wr_texture {} = wr_texture_at(texels, textures, (uint)constants[{}])",
                                     setting.name, at.constants);
+                break;
+            case Kind::volume:
+            case Kind::smooth_volume:
+                value = fmt::format("wr_volume {} = wr_volume_at(texels, textures, (uint)constants[{}])", setting.name,
+                                    at.constants);
                 break;
         }
         kernel.body += fmt::format("    {};\n", value);

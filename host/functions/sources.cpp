@@ -9,7 +9,6 @@ using enum Precision;
 std::vector<Function> source_functions() {
     const Parameter st = pair("st", "1", "texture coordinates, t up"), lod = number("lod", "1", "mip level");
     const Result texel_slope = result(pair("slope", "heights per texel", "dh/ds, dh/dt"), {absolute});
-    const Parameter lattice_point = vector("p", "lattice cells", "point, up to 2^22 cells from the origin");
     return {
         {.name = "tangent_normal_slope",
          .file = "sources/normal_map.clh",
@@ -19,6 +18,23 @@ std::vector<Function> source_functions() {
          .results = {result(pair("slope", "1", "dh/du, dh/dv, t up"), {relative})},
          .variants = {{standard, "slope = wr_tangent_normal_slope(m);", {2e-7}}},
          .note = "0 for m = 0."},
+        {.name = "tangent_normal_slope_xy",
+         .file = "sources/normal_map.clh",
+         .summary = "The same of a unit normal whose third component was not stored",
+         .source = "Mikkelsen 2020, eq. 16",
+         .parameters = {pair("m", "tangent space", "first two components of a unit normal")},
+         .results = {result(pair("slope", "1", "dh/du, dh/dv, t up"), {relative})},
+         .variants = {{standard, "slope = wr_tangent_normal_slope(m);", {5e-7}}},
+         .note = "Longer than 1: as steep as slopes get."},
+        {.name = "texture_metres",
+         .file = "sources/derivative_map.clh",
+         .summary = "Metres of surface that a unit of texture coordinate covers, for an automatic bump scale",
+         .source = "Mikkelsen 2011, derivative maps, per pixel instead of per mesh",
+         .parameters = {dp_dx, dp_dy, dst_dx, dst_dy},
+         .results = {result(number("metres", "metres per unit s, t", "side of the square of the same area"),
+                            {relative})},
+         .variants = {{standard, "metres = wr_texture_metres(dp_dx, dp_dy, dst_dx, dst_dy);", {5e-7}}},
+         .note = "0 where the coordinates or the position do not change in two directions; 3e38 at most."},
         {.name = "height_slope_plain",
          .file = "sources/height_map.clh",
          .summary = "Slopes of a height map by forward differences at least a texel apart, repeated",
@@ -30,6 +46,16 @@ std::vector<Function> source_functions() {
                        "slope = wr_height_slope_plain(heights, st, lod);\n"
                        "slope = wr_v2(slope.x / wr_texture_width(heights), slope.y / wr_texture_height(heights));",
                        {2e-5}}},
+         .fp64_error = 1e-6,
+         .note = "At tilings up to 1e5."},
+        {.name = "height_screen_slope",
+         .file = "sources/height_map.clh",
+         .summary = "Change of a height map per pixel right and down, by forward differences, repeated",
+         .source = "Mikkelsen 2020, listing 7",
+         .parameters = {st, dst_dx, dst_dy, lod},
+         .settings = {{"heights", Setting::Kind::height_texture, "the height map"}},
+         .results = {result(pair("dh_dxy", "heights per pixel", "change right, change down"), {absolute})},
+         .variants = {{standard, "dh_dxy = wr_height_screen_slope(heights, st, dst_dx, dst_dy, lod);", {2e-5}}},
          .fp64_error = 1e-6,
          .note = "At tilings up to 1e5."},
         {.name = "height_slope_smooth",
@@ -63,16 +89,6 @@ std::vector<Function> source_functions() {
                         pair("slope_z", "1", "dh/dx, dh/dy, sampled with (x, y)")},
          .results = {result(vector("dh_dp", "1, world", "volume gradient"), {relative})},
          .variants = {{standard, "dh_dp = wr_triplanar_gradient(w, slope_x, slope_y, slope_z);", {3e-7}}}},
-        {.name = "perlin_noise",
-         .file = "sources/noise.clh",
-         .summary = "Perlin's improved noise and its exact gradient; period 256",
-         .source = "Perlin 2002",
-         .parameters = {lattice_point},
-         .results = {result(number("value", "1", "noise, within +-1.04"), {absolute}),
-                     result(vector("gradient", "per cell", "its gradient"), {absolute})},
-         .variants = {{standard,
-                       "wr_noise_value v = wr_perlin_noise(p);\nvalue = v.value, gradient = v.gradient;",
-                       {1e-6, 3e-6}}}},
     };
 }
 

@@ -8,7 +8,11 @@ namespace wrinkle {
 
 std::vector<Function> surface_functions();
 std::vector<Function> source_functions();
+std::vector<Function> volume_functions();
+std::vector<Function> noise_functions();
 std::vector<Function> compose_functions();
+std::vector<Function> prologue_functions();
+std::vector<Function> displacement_functions();
 
 /// The kernel that computes every result, and its outputs in the order of the results' columns.
 ColumnKernel column_kernel(const Function& function, const FunctionVariant& variant);
@@ -18,6 +22,9 @@ struct SettingSize {
     std::size_t constants = 0, records = 0;
 };
 SettingSize size_of(const Setting& setting);
+
+/// "3 numbers"
+const char* wanted_text(Setting::Kind kind);
 
 /// The numbers and textures of the settings. Throws Error for one that is missing, unknown, or of another kind.
 ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values);

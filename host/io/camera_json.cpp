@@ -1,6 +1,7 @@
 #include "io/camera_json.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -50,15 +51,22 @@ Mat4 matrix(const json& camera, const char* key, const std::filesystem::path& fi
     return result;
 }
 
-void check_aspect(const json& camera, Size frame, const std::filesystem::path& file) {
-    if (!camera.contains("width") && !camera.contains("height")) return;
+/// Both or none; they need not be whole, since a camera fits every frame of its aspect.
+std::optional<std::array<double, 2>> sides(const json& camera, const std::filesystem::path& file) {
+    if (!camera.contains("width") && !camera.contains("height")) return std::nullopt;
     const auto side = [&](const char* key) {
         if (!camera.contains(key) || !camera[key].is_number() || !(camera[key].get<double>() >= 1)) {
             throw Error(fmt::format("{}: \"{}\" is missing or not a number of pixels", file.string(), key));
         }
         return camera[key].get<double>();
     };
-    const double width = side("width"), height = side("height");
+    return std::array{side("width"), side("height")};
+}
+
+void check_aspect(const json& camera, Size frame, const std::filesystem::path& file) {
+    const auto found = sides(camera, file);
+    if (!found) return;
+    const auto [width, height] = *found;
     // Half a pixel is what rounding a smaller frame's sides can do.
     if (std::abs(width / height * frame.height - frame.width) <= 0.5 + 0.5 * frame.width / frame.height) return;
     throw Error(fmt::format("{}: the camera is for {}x{} and the frame is {}x{}: another aspect", file.string(), width,
@@ -100,6 +108,14 @@ Camera read_camera_json(const std::filesystem::path& file, Size frame_size) {
     check_matrices(camera, file.string());
     check_aspect(value, frame_size, file);
     return camera;
+}
+
+std::optional<Size> camera_json_size(const std::filesystem::path& file) {
+    const auto found = sides(parse(file), file);
+    if (!found) return std::nullopt;
+    constexpr double most = 1 << 24;
+    const auto pixels = [&](double side) { return static_cast<std::uint32_t>(std::min(std::round(side), most)); };
+    return Size{pixels((*found)[0]), pixels((*found)[1])};
 }
 
 }  // namespace wrinkle::io

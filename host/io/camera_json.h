@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "wrinkle/camera.h"
@@ -10,6 +11,9 @@ namespace wrinkle::io {
 /// Reads {"width", "height", "view", "proj"}; the matrices are rows and act on column vectors. `frame_size`: the frame
 /// it must fit in aspect.
 Camera read_camera_json(const std::filesystem::path& file, Size frame_size);
+
+/// "width" and "height", where they are there.
+std::optional<Size> camera_json_size(const std::filesystem::path& file);
 
 /// Throws Error, beginning with `name`, unless the entries are finite, view is rigid and proj can be inverted.
 void check_matrices(const Camera& camera, const std::string& name);

@@ -46,6 +46,13 @@ std::vector<std::string> find_role(const ChannelIndex& index, const Role& role, 
         if (top == index.components.end() || !top->second.contains(u) || !top->second.contains(v)) return {};
         return {top->second.at(u), top->second.at(v)};
     };
+    if (role.name == "tangent_sign") {  // often the tangent's fourth component; an alpha would be coverage
+        const auto tangent = std::ranges::find(gbuffer_roles(), "tangent", &Role::name);
+        const auto channels = find_role(index, *tangent, prefix);
+        if (channels.empty()) return {};
+        const auto& all = index.components.at(io::split_channel(channels.front()).layer);
+        if (const auto fourth = all.find("w"); fourth != all.end()) return {fourth->second};
+    }
     if (role.name == "uv") return pair("u", "v");
     if (role.name == "duv_dx") return pair("dudx", "dvdx");
     if (role.name == "duv_dy") return pair("dudy", "dvdy");
@@ -116,6 +123,9 @@ const std::vector<Role>& gbuffer_roles() {
         {"duv_dy", {"duv_dy.u", "duv_dy.v"}},
         {"dp_du", {"dp_du.x", "dp_du.y", "dp_du.z"}},
         {"dp_dv", {"dp_dv.x", "dp_dv.y", "dp_dv.z"}},
+        {"tangent", {"tangent.x", "tangent.y", "tangent.z"}},
+        {"tangent_sign", {"tangent_sign"}},
+        {"bitangent", {"bitangent.x", "bitangent.y", "bitangent.z"}},
         {"albedo", {"albedo.r", "albedo.g", "albedo.b"}},
         {"roughness", {"roughness"}},
         {"beauty", {"beauty.r", "beauty.g", "beauty.b"}},

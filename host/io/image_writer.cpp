@@ -57,6 +57,13 @@ float srgb(float linear) {
 
 }  // namespace
 
+float png_value(float value, PngEncoding encoding, float factor) {
+    if (std::isnan(value)) return 0;
+    if (encoding == PngEncoding::normal) return std::clamp((value + 1) / 2, 0.0f, 1.0f);
+    if (encoding == PngEncoding::linear) return std::clamp(value, 0.0f, 1.0f);
+    return srgb(std::clamp(value * factor, 0.0f, 1.0f));
+}
+
 struct ImageWriter::Impl {
     Impl(const std::filesystem::path& path, Size size, std::vector<std::string> channels, ImageOptions given)
         : size(size), names(std::move(channels)), options(std::move(given)), file(path), proxy(file.descriptor()) {
@@ -97,10 +104,8 @@ struct ImageWriter::Impl {
             return keep_finite[channel] && std::isfinite(value) ? std::clamp(value, -largest_half, largest_half)
                                                                 : value;
         }
-        if (std::isnan(value)) return 0;
-        if (options.png == PngEncoding::normal) return std::clamp((value + 1) / 2, 0.0f, 1.0f);
-        if (options.png == PngEncoding::linear || channel == 3) return std::clamp(value, 0.0f, 1.0f);
-        return srgb(std::clamp(value * exposure, 0.0f, 1.0f));
+        return png_value(value, options.png == PngEncoding::srgb && channel == 3 ? PngEncoding::linear : options.png,
+                         exposure);
     }
 
     void interleave(std::span<const float* const> planes, std::size_t first_pixel, std::size_t pixels) {

@@ -19,6 +19,9 @@ enum class PngEncoding {
     normal,  ///< (n + 1) / 2, no curve
 };
 
+/// What a PNG holds for a value, in [0,1]; NaN is 0. `factor` is 2^exposure.
+float png_value(float value, PngEncoding encoding, float factor);
+
 struct ImageOptions {
     bool half = false;  ///< EXR: 16-bit floats, finite values kept finite; cryptomatte channels stay 32-bit ...
     std::set<std::string> full;  ///< ... and so do these

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "io/image_open.h"
+#include "io/packed_normals.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -15,8 +17,13 @@ namespace {
 void check_channels(const OIIO::ImageSpec& spec, ImageUse use, const std::filesystem::path& file) {
     const int n = spec.nchannels;
     const bool alpha = n == 2 && spec.alpha_channel == 1;  // grey with coverage: one channel of data
-    const bool fits = use == ImageUse::scalar ? n == 1 || n >= 3 || alpha : n >= 3 || (n == 2 && !alpha);
+    const bool fits = use == ImageUse::scalar          ? n == 1 || n >= 3 || alpha
+                      : use == ImageUse::object_normal ? n >= 3
+                                                       : n >= 3 || (n == 2 && !alpha);
     if (fits) return;
+    if (use == ImageUse::object_normal)
+        throw Error(fmt::format("{}: has {} channel{}; an object-space normal map needs 3 (x, y, z)", file.string(), n,
+                                n == 1 ? "" : "s"));
     throw Error(fmt::format("{}: has {} channel{}{}; {}", file.string(), n, n == 1 ? "" : "s",
                             alpha ? " (grey and alpha)" : "",
                             use == ImageUse::scalar ? "a height or mask image needs 1, or 3 and more"
@@ -68,18 +75,114 @@ Image complete_normals(const Image& read, bool is_float) {
     return image;
 }
 
+/// Vectors, from what holds them as they are or as (v + 1) / 2.
+Image unpacked_vectors(Image image, bool is_float) {
+    constexpr float shortest = 0.125f;
+    const std::size_t texels = image.texels.size() / 3;
+    std::vector<float> axis[3];
+    for (std::size_t i = 0; i < image.texels.size(); ++i) axis[i % 3].push_back(image.texels[i]);
+    if (is_float && !io::looks_packed(axis[0], axis[1], axis[2])) return image;
+    for (std::size_t i = 0; i < texels; ++i) {
+        float v[3] = {2 * axis[0][i] - 1, 2 * axis[1][i] - 1, 2 * axis[2][i] - 1};
+        const bool none = !is_float && std::hypot(v[0], v[1], v[2]) < shortest;
+        for (std::size_t k = 0; k < 3; ++k) image.texels[3 * i + k] = none ? 0 : v[k];
+    }
+    return image;
+}
+
+std::unique_ptr<OIIO::ImageInput> open_flat(const std::filesystem::path& file) {
+    OIIO::ImageSpec options;
+    options.attribute("oiio:UnassociatedAlpha", 1);  // or a transparent texel's height would be multiplied by 0
+    auto input = io::open_image(file, options);
+    const auto& spec = input->spec();
+    if (spec.deep || spec.depth > 1) throw Error(fmt::format("{}: not a flat image", file.string()));
+    return input;
+}
+
+/// What the two slopes of a file are multiplied by to be per unit of texture coordinate, and where they are.
+struct SlopeLayout {
+    int s_channel = 0, t_channel = 1;
+    float s_factor = 1, t_factor = 1;
+    bool packed = false;      ///< 2 texel - 1 first
+    bool bumpslopes = false;  ///< of maketx: heights in channel 0
+};
+
+SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUnit unit,
+                         const std::filesystem::path& file) {
+    const auto width = static_cast<float>(spec.width), height = static_cast<float>(spec.height);
+    const auto channel = [&](const char* name) {
+        return static_cast<int>(std::ranges::find(spec.channelnames, name) - spec.channelnames.begin());
+    };
+    const int n = spec.nchannels, s = channel("b1_dhds"), t = channel("b2_dhdt");
+    if (s < n && t < n) {  // its t runs down the rows
+        const float scale = spec.get_float_attribute("uvslopes_scale");
+        return scale == 0 ? SlopeLayout{s, t, width, -height, false, true}
+                          : SlopeLayout{s, t, scale, -scale, false, true};
+    }
+    const bool alpha = n == 2 && spec.alpha_channel == 1;
+    if (n < 2 || alpha || n == 6)
+        throw Error(
+            fmt::format("{}: has {} channel{}{}; a derivative map needs 2, or 3 and more of which the first 2 "
+                        "count{}",
+                        file.string(), n, n == 1 ? "" : "s", alpha ? " (grey and alpha)" : "",
+                        n == 6 ? "; is it of maketx --bumpslopes? its channel names (b1_dhds ...) were lost: "
+                                 "have it write .exr"
+                               : ""));
+    SlopeLayout layout;
+    layout.packed = encoding == Encoding::unit || (encoding == Encoding::automatic && !spec.format.is_floating_point());
+    if (unit == SlopeUnit::texel) layout.s_factor = width, layout.t_factor = height;
+    return layout;
+}
+
 }  // namespace
 
 Image load_texture(const std::filesystem::path& file, ImageUse use) {
-    OIIO::ImageSpec options;
-    options.attribute("oiio:UnassociatedAlpha", 1);  // or a transparent texel's height would be multiplied by 0
-    const auto input = io::open_image(file, options);
-    const auto spec = input->spec();
-    if (spec.deep || spec.depth > 1) throw Error(fmt::format("{}: not a flat image", file.string()));
+    const auto input = open_flat(file);
+    const auto& spec = input->spec();
     check_channels(spec, use, file);
+    const bool is_float = spec.format.is_floating_point();
     auto image = read_texels(*input, use == ImageUse::scalar ? 1 : std::min(spec.nchannels, 3), file);
     check_finite(image, file);
-    return use == ImageUse::scalar ? image : complete_normals(image, spec.format.is_floating_point());
+    if (use == ImageUse::object_normal) return unpacked_vectors(std::move(image), is_float);
+    return use == ImageUse::scalar ? image : complete_normals(image, is_float);
+}
+
+Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUnit unit) {
+    const auto input = open_flat(file);
+    SlopeLayout at = slope_layout(input->spec(), encoding, unit, file);
+    const Image read = read_texels(*input, std::max(at.s_channel, at.t_channel) + 1, file);
+    if (at.bumpslopes) {  // made from normals, it has heights of -1 and their t
+        bool normals = true;
+        for (int y = 0; y < read.height; ++y)
+            for (int x = 0; x < read.width; ++x) normals = normals && read.at(x, y, 0) == -1;
+        if (normals) at.t_factor = -at.t_factor;
+    }
+    Image slopes{read.width, read.height, 2, {}};
+    for (int y = 0; y < read.height; ++y)
+        for (int x = 0; x < read.width; ++x) {
+            const auto slope = [&](int channel) {
+                const float texel = read.at(x, y, channel);
+                return at.packed ? 2 * texel - 1 : texel;
+            };
+            slopes.texels.push_back(at.s_factor * slope(at.s_channel));
+            slopes.texels.push_back(at.t_factor * slope(at.t_channel));
+        }
+    check_finite(slopes, file);
+    return slopes;
+}
+
+Image load_bump(const TextureUse& use) {
+    switch (use.content) {
+        case Content::height:
+            break;
+        case Content::normal:
+            return load_texture(use.file, ImageUse::normal);
+        case Content::object_normal:
+            return load_texture(use.file, ImageUse::object_normal);
+        case Content::slope:
+            return load_slopes(use.file, use.encoding, use.unit);
+    }
+    return load_texture(use.file, ImageUse::scalar);
 }
 
 }  // namespace wrinkle

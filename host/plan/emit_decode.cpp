@@ -74,10 +74,11 @@ const char* view_text(const Emitter& emitter) {
 }
 
 /// Arguments of the generated helpers: every plane they load.
-std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
+std::string neighbour_planes(const GeometryText& geometry, bool uv, bool object, bool declare) {
     std::string text;
     std::vector<std::string> planes = geometry.planes;
-    planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z", "uv.u", "uv.v"});
+    planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z"});
+    if (uv) planes.insert(planes.end(), {"uv.u", "uv.v"});
     if (object) planes.push_back("object");
     for (const std::string& plane : planes)
         text += fmt::format(", {}{}", declare ? "global const float *" : "", identifier(plane));
@@ -85,23 +86,64 @@ std::string neighbour_planes(const GeometryText& geometry, bool object, bool dec
 }
 
 /// A neighbour needs no mask of its own bits: what is not finite fails the comparisons of wr_neighbour_step.
-std::string neighbour_helper(const GeometryText& geometry, bool object) {
+std::string neighbour_helper(const GeometryText& geometry, bool uv, bool object) {
     const std::string load = "wr_load_near({}, at, pixels)";
     const bool depth = geometry.planes.size() == 1;
     std::string text =
         "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated.\n"
         "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
-        neighbour_planes(geometry, object, true) + ")\n{\n";
+        neighbour_planes(geometry, uv, object, true) + ")\n{\n";
     text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.position + "\n";
     text += fmt::format(
         "    mask valid = (x > 0) & (y > 0) & (x < frame->width) & (y < frame->height){};\n"
-        "    vec2 uv = wr_v2(wr_real(wr_load_near(in_uv_u, at, pixels)), wr_real(wr_load_near(in_uv_v, at, pixels)));\n"
+        "    vec2 uv = wr_v2({}, {});\n"
         "    vec3 n = wr_v3(wr_real(nx), wr_real(ny), wr_real(nz));\n"
         "    real object = {};\n"
         "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",
         depth ? " & (wr_real(z) > 0) & (wr_real(z) < WR_BACKGROUND_DEPTH)" : "",
+        uv ? "wr_real(wr_load_near(in_uv_u, at, pixels))" : "(real)(0)",
+        uv ? "wr_real(wr_load_near(in_uv_v, at, pixels))" : "(real)(0)",
         object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
     return text;
+}
+
+/// Kernel text that declares the pixel as `self`, with text that is its texture coordinates and its validity, and calls
+/// `use` for each image axis with the texts of the neighbours before and after it.
+template <class Use>
+std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section, const std::string& uv,
+                            const std::string& valid, const Use& use) {
+    const bool object = emitter.has("object");
+    if (object) section.inputs.insert("object");
+    if (!emitter.plan.neighbours)
+        emitter.helpers += neighbour_helper(geometry, section.inputs.contains("uv.u"), object);
+    emitter.plan.neighbours = true;
+    const std::string planes = neighbour_planes(geometry, section.inputs.contains("uv.u"), object, false);
+    std::string text = fmt::format(
+        "        long here = at.in, row = width;\n"
+        "        wr_neighbour self = {{{}, p, unturned, {}, {}}};\n",
+        uv, object ? "wr_load(in_object, at.in)" : "0", valid);
+    const struct {
+        const char *before, *after, *name;
+    } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y", "here + 1, in_pixels, at.x + 1, at.y", "dx"},
+                {"here - row, in_pixels, at.x, at.y - 1", "here + row, in_pixels, at.x, at.y + 1", "dy"}};
+    for (const auto& axis : axes)
+        text += use(axis.name, fmt::format("wr_neighbour_at(frame, {}{})", axis.before, planes),
+                    fmt::format("wr_neighbour_at(frame, {}{})", axis.after, planes));
+    return text;
+}
+
+/// Sets dn_dx and dn_dy.
+std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
+    section.operations += 200;
+    return "        {\n" +
+           neighbours_text(emitter, geometry, section, "wr_v2((real)(0), (real)(0))", "valid",
+                           [](const char* axis, const std::string& before, const std::string& after) {
+                               return fmt::format(
+                                   "        dn_{0} = wr_normal_difference(self, {1},\n"
+                                   "                                     {2}, dp_{0});\n",
+                                   axis, before, after);
+                           }) +
+           "        }\n";
 }
 
 /// Sets uv and uv_valid, from the best the G-buffer has.
@@ -145,25 +187,14 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        const bool object = emitter.has("object");
-        if (object) section.inputs.insert("object");
-        emitter.helpers += neighbour_helper(geometry, object);
-        emitter.plan.neighbours = true;
-        const std::string planes = neighbour_planes(geometry, object, false);
-        text +=
-            "        long here = at.in, row = width;\n"
-            "        mask usable = uv_valid;\n"
-            "        wr_neighbour self = {wr_v2(wr_real(u), wr_real(v)), p, unturned, " +
-            std::string(object ? "wr_load(in_object, at.in)" : "0") + ", uv_valid};\n";
-        const struct {
-            const char *before, *after, *dp, *member;
-        } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y", "here + 1, in_pixels, at.x + 1, at.y", "dp_dx", "dx"},
-                    {"here - row, in_pixels, at.x, at.y - 1", "here + row, in_pixels, at.x, at.y + 1", "dp_dy", "dy"}};
-        for (const auto& axis : axes)
-            text += fmt::format(
-                "        uv.{3} = wr_texcoord_difference(self, wr_neighbour_at(frame, {0}{4}),\n"
-                "                                       wr_neighbour_at(frame, {1}{4}), {2}, &usable);\n",
-                axis.before, axis.after, axis.dp, axis.member, planes);
+        text += "        mask usable = uv_valid;\n" +
+                neighbours_text(emitter, geometry, section, "wr_v2(wr_real(u), wr_real(v))", "uv_valid",
+                                [](const char* axis, const std::string& before, const std::string& after) {
+                                    return fmt::format(
+                                        "        uv.{0} = wr_texcoord_difference(self, {1},\n"
+                                        "                                       {2}, dp_{0}, &usable);\n",
+                                        axis, before, after);
+                                });
         text += "        uv_valid = usable;\n";
         section.operations += 260;
     }
@@ -173,6 +204,32 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
         "        uv.dx = wr_select(uv_valid, uv.dx, wr_v2((real)(0), (real)(0)));\n"
         "        uv.dy = wr_select(uv_valid, uv.dy, wr_v2((real)(0), (real)(0)));\n";
     return text;
+}
+
+/// Sets vertex_tb and vertex_tb_valid from the planes of the renderer's tangents.
+std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
+    std::string text = "        vertex_tb_valid = valid;\n";
+    const auto load = [&](const std::string& plane, const std::string& name) {
+        section.inputs.insert(plane);
+        text += fmt::format(
+            "        floats {0} = wr_load_floats({1}, at.in);\n"
+            "        vertex_tb_valid = vertex_tb_valid & wr_finite({0});\n",
+            name, identifier(plane));
+    };
+    const bool sign = emitter.has("tangent_sign");
+    for (const char axis : {'x', 'y', 'z'}) load(fmt::format("tangent.{}", axis), fmt::format("t{}", axis));
+    if (sign) load("tangent_sign", "sign");
+    for (const char axis : {'x', 'y', 'z'})
+        if (!sign) load(fmt::format("bitangent.{}", axis), fmt::format("b{}", axis));
+    const auto vector = [](char name) {
+        return fmt::format("wr_select(vertex_tb_valid, wr_v3(wr_real({0}x), wr_real({0}y), wr_real({0}z)), wr_zero3())",
+                           name);
+    };
+    section.operations += 60;
+    return text + fmt::format(
+                      "        vertex_tb = wr_vertex_frame({},\n            {},\n            {});\n"
+                      "        marked += (valid & !vertex_tb_valid & (marked < 4)) ? (real)(4) : (real)(0);\n",
+                      vector('n'), vector('t'), sign ? "wr_real(sign)" : vector('b'));
 }
 
 }  // namespace
@@ -265,6 +322,14 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     if (wanted.contains("uv")) {
         text += emit_uv(emitter, geometry, section);
         section.writes.insert({"uv", "uv_valid"});
+    }
+    if (wanted.contains("vertex_tb")) {
+        text += emit_vertex_frame(emitter, section);
+        section.writes.insert({"vertex_tb", "vertex_tb_valid"});
+    }
+    if (wanted.contains("dn_dx")) {
+        text += emit_turning(emitter, geometry, section);
+        section.writes.insert({"dn_dx", "dn_dy"});
     }
     return section;
 }

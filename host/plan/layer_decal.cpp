@@ -17,7 +17,7 @@ bool same_loop(const Layer& a, const Layer& b) {
                                    a.mask.cryptomatte == b.mask.cryptomatte && a.mask.channel == b.mask.channel &&
                                    a.mask.invert == b.mask.invert);
     const TextureUse &ta = std::get<DecalLayer>(a.bump).texture, &tb = std::get<DecalLayer>(b.bump).texture;
-    return same_mask && a.footprint == b.footprint && slope_function(ta) == slope_function(tb);
+    return same_mask && a.footprint == b.footprint && sample_function(ta) == sample_function(tb);
 }
 
 std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) {
@@ -47,7 +47,7 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
         }}
 )",
         first, first + layers.size(), facing ? "" : " * wr_decal_angle_fade(decal, n)",
-        slope_function(std::get<DecalLayer>(layer.bump).texture),
+        sample_function(std::get<DecalLayer>(layer.bump).texture),
         layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "(real)(0)");
 }
 

@@ -26,12 +26,23 @@ std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& lay
         TextureUse use = layer.textures[row.texture];
         use.wrap = row.wrap;
         use.upscale = Upscale::smooth;
+        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres: as they are
         const auto [found, is_new] =
             known.try_emplace({row.texture, row.region, row.wrap}, static_cast<std::uint32_t>(plan.textures.size()));
-        if (is_new) plan.textures.push_back({use, TexelKind::slope, row.region});
+        if (is_new) plan.textures.push_back({use, TexelKind::slope, {}, row.region});
         images.push_back({found->second, use.content == Content::height});
     }
     return images;
+}
+
+/// Bins hold the decals of where the frame's surface is, not of where a parallax moves it.
+void refuse_moved_points(const LayerText& at) {
+    for (const Layer* before = at.emitter.scene.layers.data(); before != &at.layer; ++before)
+        if (std::holds_alternative<ParallaxLayer>(before->bump))
+            throw Error(fmt::format(
+                "{}: a table of decals cannot follow a parallax (\"{}\"), which moves the points that it is binned by; "
+                "put it before that, or use kind = \"decal\"",
+                at.who, before->name));
 }
 
 /// Text that multiplies `weight` by what the row's own mask says.
@@ -69,6 +80,7 @@ std::string row_masks(LayerText& at, PlannedDecals& table) {
 
 std::string emit(LayerText& at, const DecalsLayer& l) {
     if (!l.rows || l.rows->empty()) return {};
+    refuse_moved_points(at);
     Plan& plan = at.emitter.plan;
     const std::size_t first = plan.projectors, last = first + l.rows->size();
     PlannedDecals& table = plan.tables.emplace_back();

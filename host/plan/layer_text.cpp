@@ -5,16 +5,21 @@
 namespace wrinkle {
 
 TexelKind texel_kind(const TextureUse& use) {
+    if (use.content == Content::object_normal) return TexelKind::vector;
     return use.content == Content::height && use.upscale == Upscale::plain ? TexelKind::height : TexelKind::slope;
 }
 
 double sample_cost(const TextureUse& use) {
-    constexpr double kSlopeSample = 46, kHeightSamples = 150;
-    return texel_kind(use) == TexelKind::height ? kHeightSamples : kSlopeSample;
+    constexpr double kSlopeSample = 46, kHeightSamples = 150, kVectorSample = 58;
+    const TexelKind kind = texel_kind(use);
+    return kind == TexelKind::height ? kHeightSamples : kind == TexelKind::vector ? kVectorSample : kSlopeSample;
 }
 
-std::string slope_function(const TextureUse& use) {
-    const std::string form = texel_kind(use) == TexelKind::height ? "wr_height_slope_plain" : "wr_slope";
+std::string sample_function(const TextureUse& use) {
+    const TexelKind kind = texel_kind(use);
+    const std::string form = kind == TexelKind::height   ? "wr_height_slope_plain"
+                             : kind == TexelKind::vector ? "wr_object_normal"
+                                                         : "wr_slope";
     return form + (use.wrap == Wrap::clamp ? "_clamp" : "");
 }
 
@@ -24,13 +29,17 @@ std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
     return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(real)(0)";
 }
 
-std::string LayerText::textured(const TextureUse& use, const UvMapping& uv) {
+std::string LayerText::located(const TextureUse& use, TexelKind kind, const UvMapping& uv) {
     std::string text = emit_texcoord(emitter, uv, use.wrap, who, section);
     if (uv.source == UvSource::aov) text += "        m = uv_valid ? m : (real)(0);\n";
-    text += fmt::format(
-        "        wr_texture t = wr_texture_at(texels, textures, {});\n"
-        "        vec2 slope = {}(t, c.st, {});\n",
-        emitter.texture(use, texel_kind(use)), slope_function(use), lod("c.dx", "c.dy"));
+    return text +
+           fmt::format("        wr_texture t = wr_texture_at(texels, textures, {});\n", emitter.texture(use, kind));
+}
+
+std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, const char* declared) {
+    const std::string text =
+        located(use, texel_kind(use), uv) +
+        fmt::format("        {} = {}(t, c.st, {});\n", declared, sample_function(use), lod("c.dx", "c.dy"));
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");
     section.operations += sample_cost(use);

@@ -16,16 +16,18 @@ struct LayerText {
     std::string strength() const;
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
-    /// Declares coordinates `c`, texture `t` and its `slope`, for a source that samples one texture over a UV mapping.
-    std::string textured(const TextureUse& use, const UvMapping& uv);
+    /// Declares coordinates `c`, texture `t` and its sample, for a source that samples one texture over a UV mapping.
+    std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "vec2 slope");
+    /// Declares coordinates `c` and texture `t`.
+    std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
     /// Adds a volume gradient.
     std::string volume(const std::string& gradient);
 };
 
 /// How the texels of `use` are stored.
 TexelKind texel_kind(const TextureUse& use);
-/// Name of the kernel function that samples the slopes of `use`.
-std::string slope_function(const TextureUse& use);
+/// Name of the kernel function that samples `use`.
+std::string sample_function(const TextureUse& use);
 /// Expected operations of such a sample.
 double sample_cost(const TextureUse& use);
 
@@ -36,6 +38,10 @@ std::string emit(LayerText& at, const TriplanarLayer& l);
 std::string emit(LayerText& at, const NoiseLayer& l);
 std::string emit(LayerText& at, const ConstantLayer& l);
 std::string emit(LayerText& at, const DecalsLayer& l);
+std::string emit(LayerText& at, const VolumeLayer& l);
+std::string emit(LayerText& at, const ObjectNormalLayer& l);
+std::string emit(LayerText& at, const DerivativeMapLayer& l);
+std::string emit(LayerText& at, const ParallaxLayer& l);
 
 /// Decals that may share a loop: same mask, same way to sample.
 bool same_loop(const Layer& a, const Layer& b);

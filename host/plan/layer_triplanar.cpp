@@ -29,7 +29,7 @@ std::string emit(LayerText& at, const TriplanarLayer& l) {
             "        vec2 {3} = wr_v2((real)(0), (real)(0));\n"
             "        if (wr_any(active & ({0} > 0)))\n"
             "            {3} = {4}(t, wr_v2(q.{1}, q.{2}), {5});\n",
-            plane.weight, plane.s, plane.t, plane.name, slope_function(l.texture),
+            plane.weight, plane.s, plane.t, plane.name, sample_function(l.texture),
             at.lod(fmt::format("wr_v2(qx.{}, qx.{})", plane.s, plane.t),
                    fmt::format("wr_v2(qy.{}, qy.{})", plane.s, plane.t)));
     if (l.texture.content == Content::height) text += fmt::format("        m *= {};\n", literal(per_metre));

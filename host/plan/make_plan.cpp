@@ -43,8 +43,11 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
 std::vector<Section> emit_sections(Emitter& emitter) {
     std::vector<Stage> stages = emit_stages(emitter);
     std::set<std::string> first = stages.front().reads;
-    for (const Stage& stage : stages)  // texture coordinates are decoded once, for all stages; they need derivatives
+    for (const Stage& stage : stages) {  // decoded once, for all stages; texture coordinates need derivatives
         if (stage.reads.contains("uv")) first.insert({"uv", "dp_dx"});
+        if (stage.reads.contains("vertex_tb")) first.insert("vertex_tb");
+        if (stage.reads.contains("dn_dx")) first.insert({"dn_dx", "dp_dx"});
+    }
     const Output& output = emitter.scene.output;
     if (output.dp_dx || output.dp_dy) first.insert("dp_dx");
     const bool relight = emitter.scene.lighting.relight != Relight::off;
@@ -87,7 +90,10 @@ std::vector<std::string> scratch_planes(const Value& value) {
 
 std::string declare(const Value& value) {
     const std::string type = value.type;
-    const std::string zero = type == "vec3" ? "wr_zero3()" : type == "wr_texcoord" ? "{{0, 0}, {0, 0}, {0, 0}}" : "0";
+    const std::string zero = type == "vec3"          ? "wr_zero3()"
+                             : type == "wr_texcoord" ? "{{0, 0}, {0, 0}, {0, 0}}"
+                             : type == "wr_frame_tb" ? "{wr_zero3(), wr_zero3()}"
+                                                     : "0";
     return fmt::format("    {} {} = {};\n", type, value.name, zero);
 }
 

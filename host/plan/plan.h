@@ -23,12 +23,19 @@ enum class CameraKind {
 
 CameraKind camera_kind(const Camera& camera, Size size);
 
+/// What a plan must know of a volume.
+struct VolumeFacts {
+    bool vectors = false;
+    Mat4 index_from_world{};
+};
+
 /// What a plan may count on.
 struct Available {
     std::set<std::string> planes;  ///< names as in wrinkle/gbuffer.h
     CameraKind camera = CameraKind::pinhole;
     bool ray_depth = false;                            ///< the depth plane holds distances along rays
     std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of the known object names
+    std::map<std::pair<std::string, std::string>, VolumeFacts> volumes{};  ///< by file and grid, as the scene has them
 };
 
 /// What is wanted of a plan beyond the scene.
@@ -40,20 +47,27 @@ struct PlanOptions {
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
 };
 
-/// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period) when that is
+/// Periods of three numbers: the same for all, or one each; 0 for none.
+struct Periods : Vec3 {
+    constexpr Periods(double all = 0) : Vec3{all, all, all} {}
+    constexpr explicit Periods(const Vec3& each) : Vec3(each) {}
+};
+
+/// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period_k) when that is
 /// set.
 struct Origin {
     std::array<Vec3, 3> axes{};
     Vec3 offset{};
-    double period = 0;
+    Periods period = 0;
     double fourth = 0;  ///< a number that travels with them: the frequency of an octave
 };
 
 /// A texture as kernels sample it.
-enum class TexelKind { slope, height, mask };
+enum class TexelKind { slope, height, mask, vector, volume, volume_smooth };
 struct PlannedTexture {
     TextureUse use;
     TexelKind kind = TexelKind::slope;
+    std::string grid{};                        ///< of a volume
     std::array<double, 4> region{0, 0, 1, 1};  ///< of the image: s and t from, s and t to
 };
 

@@ -18,8 +18,12 @@ const std::vector<Value>& values() {
         {"base", "vec3", {".x", ".y", ".z"}},
         {"dp_dx", "vec3", {".x", ".y", ".z"}},
         {"dp_dy", "vec3", {".x", ".y", ".z"}},
+        {"dn_dx", "vec3", {".x", ".y", ".z"}},
+        {"dn_dy", "vec3", {".x", ".y", ".z"}},
         {"uv", "wr_texcoord", {".st.x", ".st.y", ".dx.x", ".dx.y", ".dy.x", ".dy.y"}},
         {"uv_valid", "mask", {""}},
+        {"vertex_tb", "wr_frame_tb", {".t.x", ".t.y", ".t.z", ".b.x", ".b.y", ".b.z"}},
+        {"vertex_tb_valid", "mask", {""}},
         {"g", "vec3", {".x", ".y", ".z"}},
         {"dh_dp", "vec3", {".x", ".y", ".z"}},
         {"lit", "vec3", {".x", ".y", ".z"}},
@@ -31,10 +35,20 @@ std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {
         const PlannedTexture& known = plan.textures[i];
         if (known.kind == kind && known.use.file == use.file && known.use.content == use.content &&
-            known.use.wrap == use.wrap && known.use.y_down == use.y_down)
+            known.use.wrap == use.wrap && known.use.y_down == use.y_down && known.use.encoding == use.encoding &&
+            known.use.unit == use.unit && known.region == std::array<double, 4>{0, 0, 1, 1})
             return i;
     }
     plan.textures.push_back({use, kind});
+    return plan.textures.size() - 1;
+}
+
+std::size_t Emitter::volume(const VolumeLayer& layer, TexelKind kind) {
+    for (std::size_t i = 0; i < plan.textures.size(); ++i) {
+        const PlannedTexture& known = plan.textures[i];
+        if (known.kind == kind && known.use.file == layer.file && known.grid == layer.grid) return i;
+    }
+    plan.textures.push_back({{.file = layer.file}, kind, layer.grid});
     return plan.textures.size() - 1;
 }
 

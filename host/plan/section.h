@@ -38,6 +38,8 @@ struct Emitter {
 
     /// Number of a texture in the table; the same use is stored once.
     std::size_t texture(const TextureUse& use, TexelKind kind);
+    /// Number of a volume in the same table.
+    std::size_t volume(const VolumeLayer& layer, TexelKind kind);
     /// Number of the first of several origins.
     std::size_t origin(const Origin& origin);
     /// Throws unless every plane is there; `who` starts the message.

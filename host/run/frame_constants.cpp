@@ -12,12 +12,17 @@ namespace {
 
 using scene::cross, scene::dot, scene::normalize, scene::subtract;
 
-static_assert(sizeof(wr_frame) == 48 * sizeof(double) && sizeof(wr_decal) == 25 * sizeof(double) &&
+static_assert(sizeof(wr_frame) == 73 * sizeof(double) && sizeof(wr_decal) == 25 * sizeof(double) &&
                   sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_projector) == 32 * sizeof(double) &&
                   sizeof(wr_lighting) == 10 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
 void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }
+
+template <std::size_t n>
+void put_low(double (&to)[n], const double (&from)[n]) {
+    for (std::size_t k = 0; k < n; ++k) to[k] = from[k] - static_cast<double>(static_cast<float>(from[k]));
+}
 
 Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 
@@ -44,6 +49,12 @@ wr_light fill_light(const Light& light, const Vec3& eye) {
 Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_world[2][3]}; }
 
 }  // namespace
+
+void split_constants(wr_frame& frame) {
+    put_low(frame.d0_low, frame.d0), put_low(frame.dx_low, frame.dx), put_low(frame.dy_low, frame.dy);
+    put_low(frame.c0_low, frame.c0), put_low(frame.c1_low, frame.c1), put_low(frame.c2_low, frame.c2);
+    put_low(frame.c3_low, frame.c3), put_low(frame.w_low, frame.w);
+}
 
 wr_frame camera_constants(const Camera& camera, Size size) {
     const Mat4 to_world = inverse(camera.view);
@@ -87,6 +98,7 @@ wr_frame camera_constants(const Camera& camera, Size size) {
         put(frame.dx, flat(frame.c0));
         put(frame.dy, flat(frame.c1));
     }
+    split_constants(frame);
     return frame;
 }
 
@@ -160,7 +172,7 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
     for (const Origin& origin : plan.origins) {
         for (std::size_t k = 0; k < 3; ++k) {
             double value = dot(origin.axes[k], eye) + origin.offset[k];
-            if (origin.period > 0) value -= origin.period * std::floor(value / origin.period);
+            if (const double period = origin.period[k]; period > 0) value -= period * std::floor(value / period);
             out.origins.push_back(value);
         }
         out.origins.push_back(origin.fourth);

@@ -24,6 +24,9 @@ struct FrameConstants {
 /// The frame as kernels read it.
 wr_frame camera_constants(const Camera& camera, Size size);
 
+/// Sets the ..._low of a frame that is otherwise complete.
+void split_constants(wr_frame& frame);
+
 /// A decal as kernels read it; `scale` is signed, `texture` its number in the table.
 wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "io/volume_file.h"
 #include "run/frame_constants.h"
 #include "run/texture_heap.h"
 #include "wrinkle/error.h"
@@ -62,11 +63,34 @@ void check_alignment(const cl::Buffer& buffer, const std::string& name, std::siz
                                 alignment));
 }
 
+void add_facts(Available& available, const Layer& layer, const VolumeLayer& volume) {
+    try {
+        const VolumeInfo info = volume_info(volume.file, volume.grid);
+        available.volumes[{volume.file.string(), volume.grid}] = {info.channels == 3, info.index_from_world};
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}layer \"{}\": {}", layer.location.empty() ? "" : layer.location + ": ", layer.name,
+                                error.what()));
+    }
+}
+
+/// What a table of all textures and volumes takes must be one buffer.
+void check_memory(const Device& device, std::size_t texels) {
+    const std::size_t bytes = texels * sizeof(float);
+    const auto most = device.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    if (bytes > most)
+        throw Error(fmt::format(
+            "the textures and volumes of the scene take {:.1f} MiB; {} allows {:.1f} MiB in one "
+            "buffer: use smaller ones, or another device",
+            static_cast<double>(bytes) / (1 << 20), device.info.name, static_cast<double>(most) / (1 << 20)));
+}
+
 }  // namespace
 
 Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options) {
     if (frame.size.width == 0 || frame.size.height == 0) throw Error("the frame has no pixels");
-    const Available available{frame.planes, camera_kind(frame.camera, frame.size), frame.ray_depth, frame.cryptomatte};
+    Available available{frame.planes, camera_kind(frame.camera, frame.size), frame.ray_depth, frame.cryptomatte};
+    for (const Layer& layer : scene.layers)
+        if (const auto* volume = std::get_if<VolumeLayer>(&layer.bump)) add_facts(available, layer, *volume);
     return make_plan(scene, available, options);
 }
 
@@ -83,6 +107,7 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
         throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
     const auto textures_start = Clock::now();
     TextureHeap heap = load_textures(plan.textures);
+    check_memory(device, heap.texels.size());
     texels = table(device, std::move(heap.texels));
     textures = table(device, std::move(heap.table));
     texture_seconds = seconds_since(textures_start);

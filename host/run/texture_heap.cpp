@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "io/volume_file.h"
+#include "run/volume_heap.h"
 #include "wrinkle/error.h"
 
 #define WR_SCALAR double
@@ -54,6 +56,8 @@ void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
     }
 }
 
+bool is_whole(const PlannedTexture& planned) { return planned.region == std::array<double, 4>{0, 0, 1, 1}; }
+
 /// The texels of a region, whole ones, at least one each way.
 Image cropped(const Image& image, const std::array<double, 4>& region) {
     const auto range = [](double from, double to, int size) {
@@ -69,16 +73,6 @@ Image cropped(const Image& image, const std::array<double, 4>& region) {
     return out;
 }
 
-/// Signed slopes of a map of slopes.
-Image unpacked_slopes(const Image& image, bool y_down) {
-    Image slopes{image.width, image.height, 2, {}};
-    for (std::size_t i = 0; i + 3 <= image.texels.size(); i += 3) {
-        slopes.texels.push_back(2 * image.texels[i] - 1);
-        slopes.texels.push_back((y_down ? -1.0f : 1.0f) * (2 * image.texels[i + 1] - 1));
-    }
-    return slopes;
-}
-
 /// Slopes of tangent-space normals [Mik20 listing 2]; m = 0 is flat.
 Image slopes_of_normals(const Image& image, bool y_down) {
     Image slopes{image.width, image.height, 2, {}};
@@ -92,23 +86,33 @@ Image slopes_of_normals(const Image& image, bool y_down) {
     return slopes;
 }
 
-/// Appends a level with its border of one texel.
+/// The t slopes change their sign.
+Image turned_down(Image slopes) {
+    for (std::size_t i = 1; i < slopes.texels.size(); i += 2) slopes.texels[i] = -slopes.texels[i];
+    return slopes;
+}
+
+/// Appends a level with its border of one texel. Three channels take four floats, so that a texel is one load.
 void append(TextureHeap& heap, const Image& level, Wrap wrap) {
     for (int y = -1; y <= level.height; ++y)
-        for (int x = -1; x <= level.width; ++x)
+        for (int x = -1; x <= level.width; ++x) {
             for (int c = 0; c < level.channels; ++c)
                 heap.texels.push_back(level.at(wrapped(x, level.width, wrap), wrapped(y, level.height, wrap), c));
+            if (level.channels == 3) heap.texels.push_back(0);
+        }
+}
+
+/// The finest level as it is filtered.
+Image finest_level(const Image& image, const TextureUse& use) {
+    if (use.content == Content::normal) return slopes_of_normals(image, use.y_down);
+    return use.content == Content::slope && use.y_down ? turned_down(image) : image;
 }
 
 }  // namespace
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
-    const bool slopes = planned.kind == TexelKind::slope, ready = slopes && planned.use.content != Content::height;
-    const bool whole = planned.region == std::array<double, 4>{0, 0, 1, 1};
-    Image level = whole ? image : cropped(image, planned.region);
-    if (ready)
-        level = planned.use.content == Content::normal ? slopes_of_normals(level, planned.use.y_down)
-                                                       : unpacked_slopes(level, planned.use.y_down);
+    const bool sobel = planned.kind == TexelKind::slope && planned.use.content == Content::height;
+    Image level = finest_level(is_whole(planned) ? image : cropped(image, planned.region), planned.use);
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -116,7 +120,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        if (slopes && !ready)
+        if (sobel)
             append_slopes(heap, level, planned.use.wrap);
         else
             append(heap, level, planned.use.wrap);
@@ -133,17 +137,17 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
-    std::map<std::pair<std::filesystem::path, ImageUse>, Image> atlases;  // files of which only regions are used
+    std::map<std::pair<std::filesystem::path, Content>, Image> atlases;  // files of which only regions are used
     for (const PlannedTexture& texture : planned) {
-        const bool scalar = texture.kind != TexelKind::slope || texture.use.content == Content::height;
-        const ImageUse use = scalar ? ImageUse::scalar : ImageUse::normal;
-        if (texture.region == std::array<double, 4>{0, 0, 1, 1}) {
-            add_texture(heap, load_texture(texture.use.file, use), texture);
-            continue;
+        if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
+            add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
+        } else if (is_whole(texture)) {
+            add_texture(heap, load_bump(texture.use), texture);
+        } else {
+            const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, texture.use.content});
+            if (is_new) atlas->second = load_bump(texture.use);
+            add_texture(heap, atlas->second, texture);
         }
-        const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, use});
-        if (is_new) atlas->second = load_texture(texture.use.file, use);
-        add_texture(heap, atlas->second, texture);
     }
     heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
     return heap;

@@ -15,7 +15,8 @@ struct TextureHeap {
 };
 
 /// Adds one image as the plan's texels: heights and masks as they are; heights for the smooth upscale as slopes by the
-/// Sobel operator per level [Mik20 eq. 20, 21]; tangent normals as slopes per texel [listing 2], mip-mapped as slopes.
+/// Sobel operator per level [Mik20 eq. 20, 21]; tangent normals as slopes per texel [listing 2], mip-mapped as slopes;
+/// slopes as they are; object-space normals as vectors of four floats.
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned);
 
 /// Loads all textures of a plan. Throws Error for files that cannot be used.

@@ -2,11 +2,15 @@
 
 namespace wrinkle::scene {
 
+void read_place(Table& table, Layer& layer) {
+    table.read("footprint", layer.footprint);
+    if (auto mask = table.table("mask", "mask of " + table.where())) read_mask(*mask, layer.mask);
+}
+
 void read_weight(Table& table, Layer& layer) {
     table.read("scale", layer.scale);
     table.choose("blend", layer.blend, {{"add", Blend::add}, {"subtract", Blend::subtract}});
-    table.read("footprint", layer.footprint);
-    if (auto mask = table.table("mask", "mask of " + table.where())) read_mask(*mask, layer.mask);
+    read_place(table, layer);
 }
 
 void read_texture_file(Table& table, TextureUse& texture) {

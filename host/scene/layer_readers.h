@@ -5,6 +5,8 @@
 /// What the readers of the layer kinds share.
 namespace wrinkle::scene {
 
+/// footprint, mask
+void read_place(Table& table, Layer& layer);
 /// scale, blend, footprint, mask
 void read_weight(Table& table, Layer& layer);
 /// texture
@@ -21,9 +23,13 @@ void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
 /// One function a kind.
 void read_normal_map(Table& table, Layer& layer);
 void read_height_map(Table& table, Layer& layer);
+void read_object_normal(Table& table, Layer& layer);
+void read_derivative_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);
 void read_decals(Table& table, Layer& layer);
+void read_volume(Table& table, Layer& layer);
+void read_parallax(Table& table, Layer& layer);
 
 }  // namespace wrinkle::scene

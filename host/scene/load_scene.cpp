@@ -11,15 +11,6 @@ namespace wrinkle {
 namespace scene {
 namespace {
 
-toml::table parse(const std::string& text, const std::string& file_name) {
-    try {
-        return toml::parse(std::string_view(text));
-    } catch (const toml::parse_error& error) {
-        const toml::source_position at = error.source().begin;
-        throw Error(fmt::format("{}:{}:{}: not valid TOML: {}", file_name, at.line, at.column, error.description()));
-    }
-}
-
 void read_layers(Table& root, std::vector<Layer>& out) {
     std::map<std::string, std::uint32_t> lines;
     for (Table& table : root.tables("layer")) {
@@ -61,18 +52,20 @@ void require_table(Table& root, const char* key, const char* example) {
 }
 
 }  // namespace
-}  // namespace scene
 
-Scene load_scene(const std::filesystem::path& file) {
-    using namespace scene;
+toml::table parse_scene_file(const std::filesystem::path& file) {
     const std::string text = read_text(file), name = file.filename().string();
-    const toml::table values = parse(text, name);
-    if (values.empty()) throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer] and [camera]", name));
+    try {
+        toml::table values = toml::parse(std::string_view(text));
+        if (!values.empty()) return values;
+    } catch (const toml::parse_error& error) {
+        const toml::source_position at = error.source().begin;
+        throw Error(fmt::format("{}:{}:{}: not valid TOML: {}", name, at.line, at.column, error.description()));
+    }
+    throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer] and [camera]", name));
+}
 
-    Document document{.folder = file.parent_path(), .check_files = true, .problems = Problems(name)};
-    Scene out;
-    out.file = file;
-    Table root(document, values, "the scene", 1);
+void read_scene(Table& root, Scene& out) {
     require_table(root, "gbuffer", "file = \"frame.exr\"");
     require_table(root, "camera", "from = \"exr\"");
     if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
@@ -80,7 +73,20 @@ Scene load_scene(const std::filesystem::path& file) {
     read_layers(root, out.layers);
     read_lights(root, out.lighting);
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);
-    root.finish();
+}
+
+}  // namespace scene
+
+Scene load_scene(const std::filesystem::path& file) {
+    const toml::table values = scene::parse_scene_file(file);
+    scene::Document document{file.parent_path(), true, scene::Problems(file.filename().string())};
+    scene::Table root(document, values, "the scene", 1);
+    Scene out;
+    out.file = file;
+    scene::read_scene(root, out);
+    root.finish([](const std::string& key) {
+        return key == "figure" || key == "panel" ? "makes this a figure; draw it with \"wrinkle figures\"" : "";
+    });
     document.problems.throw_if_any();
     return out;
 }

@@ -18,10 +18,18 @@ void read_resolve(Table&, Layer& layer) { layer.bump = ResolveLayer{}; }
 
 /// A row a kind: its name and what reads its keys.
 constexpr Kind<Layer> kinds[] = {
-    {NormalMapLayer::kind, read_normal_map}, {HeightMapLayer::kind, read_height_map},
-    {TriplanarLayer::kind, read_triplanar},  {NoiseLayer::kind, read_noise},
-    {DecalLayer::kind, read_decal},          {DecalsLayer::kind, read_decals},
-    {ConstantLayer::kind, read_constant},    {ResolveLayer::kind, read_resolve},
+    {NormalMapLayer::kind, read_normal_map},
+    {HeightMapLayer::kind, read_height_map},
+    {TriplanarLayer::kind, read_triplanar},
+    {NoiseLayer::kind, read_noise},
+    {DecalLayer::kind, read_decal},
+    {DecalsLayer::kind, read_decals},
+    {VolumeLayer::kind, read_volume},
+    {ConstantLayer::kind, read_constant},
+    {ParallaxLayer::kind, read_parallax},
+    {ResolveLayer::kind, read_resolve},
+    {ObjectNormalLayer::kind, read_object_normal},
+    {DerivativeMapLayer::kind, read_derivative_map},
 };
 
 }  // namespace

@@ -6,6 +6,12 @@
 /// One function a table of the scene file.
 namespace wrinkle::scene {
 
+/// The file as TOML. Throws Error when it cannot be read, is not TOML or holds nothing.
+toml::table parse_scene_file(const std::filesystem::path& file);
+
+/// The tables of a scene; the caller finishes `root`, which may hold more.
+void read_scene(Table& root, Scene& out);
+
 void read_gbuffer(Table& table, GBufferSource& out);
 void read_camera(Table& table, CameraSource& out);
 void read_output(Table& table, Output& out);

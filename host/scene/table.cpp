@@ -150,21 +150,23 @@ bool Table::read_degrees(std::string_view key, double& radians, const Range& deg
     return true;
 }
 
-bool Table::read_matrix(std::string_view key, std::array<std::array<double, 4>, 4>& out) {
+bool Table::read_rows(std::string_view key, double* out, std::size_t size) {
     const toml::node* node = find(key);
     if (!node) return false;
     const toml::array* rows = node->as_array();
-    const auto is_row = [](const toml::node& row) { return row.is_array() && row.as_array()->size() == 4; };
-    if (!rows || rows->size() != 4 || !std::all_of(rows->begin(), rows->end(), is_row)) {
-        complain(key, "must be a 4x4 matrix, [[..], [..], [..], [..]] with 4 numbers a row");
+    const auto is_row = [&](const toml::node& row) { return row.is_array() && row.as_array()->size() == size; };
+    if (!rows || rows->size() != size || !std::all_of(rows->begin(), rows->end(), is_row)) {
+        const std::vector<std::string_view> dots(size, "[..]");
+        complain(key,
+                 fmt::format("must be a {0}x{0} matrix, [{1}] with {0} numbers a row", size, fmt::join(dots, ", ")));
         return false;
     }
-    std::array<std::array<double, 4>, 4> matrix{};
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j)
-            if (!number(key, (*(*rows)[i].as_array())[j], matrix[i][j], any_number, "a matrix with each element "))
-                return false;
-    out = matrix;
+    std::vector<double> matrix(size * size);
+    for (std::size_t i = 0; i < size * size; ++i)
+        if (!number(key, (*(*rows)[i / size].as_array())[i % size], matrix[i], any_number,
+                    "a matrix with each element "))
+            return false;
+    std::copy(matrix.begin(), matrix.end(), out);
     return true;
 }
 
@@ -177,6 +179,18 @@ bool Table::read(std::string_view key, std::string& out) {
     // Texts end up in messages, file names and the comments of generated kernels.
     if (has_control_character(text)) return wrong_type(key, "a text without control characters", *node);
     out = text;
+    return true;
+}
+
+bool Table::read(std::string_view key, std::vector<std::string>& out) {
+    const toml::node* node = find(key);
+    if (!node) return false;
+    const toml::array* array = node->as_array();
+    const auto is_text = [](const toml::node& element) { return element.is_string(); };
+    if (!array || !std::all_of(array->begin(), array->end(), is_text))
+        return wrong_type(key, "an array of texts, [\"..\", \"..\"]", *node);
+    out.clear();
+    for (const toml::node& element : *array) out.push_back(element.as_string()->get());
     return true;
 }
 

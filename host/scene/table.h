@@ -48,12 +48,16 @@ public:
     bool read(std::string_view key, int& out, int low, int high);
     bool read(std::string_view key, double& out, const Range& range = any_number);
     bool read(std::string_view key, std::string& out);
+    bool read(std::string_view key, std::vector<std::string>& out);
     template <std::size_t N>
     bool read(std::string_view key, std::array<double, N>& out, const Range& range = any_number) {
         return read_numbers(key, out.data(), N, range);
     }
     bool read_degrees(std::string_view key, double& radians, const Range& degrees = any_number);
-    bool read_matrix(std::string_view key, std::array<std::array<double, 4>, 4>& out);
+    template <std::size_t N>
+    bool read_matrix(std::string_view key, std::array<std::array<double, N>, N>& out) {
+        return read_rows(key, out.data()->data(), N);
+    }
 
     /// An input file that has to exist. With a frame pattern (#### or %04d) only its folder has to.
     enum class FramePattern { refused, allowed };
@@ -107,6 +111,7 @@ private:
     bool number(std::string_view key, const toml::node& node, double& out, const Range& range,
                 std::string_view element);
     bool read_numbers(std::string_view key, double* out, std::size_t count, const Range& range);
+    bool read_rows(std::string_view key, double* out, std::size_t size);
     bool wrong_type(std::string_view key, std::string_view wanted, const toml::node& found);
 
     Document* document_;

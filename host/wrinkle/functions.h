@@ -46,8 +46,8 @@ struct Result : Parameter {
 };
 
 /// What is the same for all rows. Kernel text sees a number as a WR_SCALAR, a vector as a vec3, a camera as `constant
-/// const wr_frame *`, a texture as a wr_texture, a projector as `global const wr_decal *`, a lattice as the `constant
-/// const WR_SCALAR *` that fractal sums take.
+/// const wr_frame *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const wr_decal *`, a
+/// lattice as the `constant const WR_SCALAR *` that fractal sums take.
 struct Setting {
     enum class Kind {
         number,
@@ -55,6 +55,8 @@ struct Setting {
         camera,          ///< a camera file and the size of the frame
         height_texture,  ///< an image file: heights, as they are
         slope_texture,   ///< ... their slopes
+        volume,          ///< a volume file, or FILE#GRID, for trilinear samples
+        smooth_volume,   ///< ... for B-splines
         projector,       ///< center, axis_x, axis_y, half_size: 12 numbers; then falloff, angle_fade as cosines: 3 more
         lattice,         ///< frequency of the first octave, lacunarity
     };
@@ -67,12 +69,15 @@ struct Setting {
 /// fast: native functions or less compensation, with its own error; standard: what scenes use; exact: compensated
 /// further; fp64: everything in double.
 enum class Precision { fast, standard, exact, fp64 };
+/// "fast", "standard", "exact", "double".
+std::string precision_name(Precision precision);
 
 /// A way to compute the same results.
 struct FunctionVariant {
     Precision precision = Precision::standard;
     std::string text;                ///< kernel text: parameters and settings by name are read, results by name are set
     std::vector<double> max_errors;  ///< documented, of each measure of each result, in their order
+    bool everywhere = false;         ///< they hold even where `note` allows more
 };
 
 struct Function {
@@ -85,6 +90,7 @@ struct Function {
     std::vector<Result> results{};
     std::vector<FunctionVariant> variants{};  ///< from fast to exact; standard is always there
     double fp64_error = 1e-9;                 ///< largest error of a run in double, by any measure
+    double operations = 0;                    ///< floating-point operations per row, an fma being two; 0: not counted
     std::string note{};                       ///< where the error may be larger, what degenerate input gives
 
     /// The variant that serves `wanted`: itself, else the next more accurate, else the most accurate one.

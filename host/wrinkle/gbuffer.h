@@ -14,6 +14,9 @@
 ///   object      object                             object index
 ///   duv_dx/_dy  duv_dx.u duv_dx.v ...              screen derivatives of uv, per pixel right / down
 ///   dp_du/_dv   dp_du.x .y .z ...                  position per unit u / v
+///   tangent     tangent.x .y .z                    world; as the renderer interpolated it, not normalised (mikkTSpace)
+///   tangent_sign  tangent_sign                     above 0: bitangent = normal x tangent; else the other way round
+///   bitangent   bitangent.x .y .z                  world; instead of tangent_sign
 ///   albedo      albedo.r .g .b                     diffuse reflectance, linear
 ///   roughness   roughness                          perceptual, GGX alpha = roughness^2
 ///   beauty      beauty.r .g .b                     the finished picture, linear
@@ -40,7 +43,7 @@ struct Marked {
     static constexpr int back_facing = 2;  ///< the normal faced away and was reflected towards the viewer
     static constexpr int overflow = 8;     ///< a gradient too large for a float: the normal stays as it was
     static constexpr int no_uv_derivative =
-        4;  ///< a bare UV plane without a usable neighbour: its layers are zero here
+        4;  ///< a bare UV plane without a usable neighbour, or no tangent: layers that need it are zero here
 };
 
 }  // namespace wrinkle

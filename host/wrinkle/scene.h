@@ -26,18 +26,22 @@ namespace wrinkle {
 
 // --- Textures ------------------------------------------------------------------------------------------------------
 
-/// What the texels mean: height in [0,1] units of `scale`, a tangent normal, or (in tables of decals) slopes along s
-/// and t.
-enum class Content { height, normal, slope };
+/// What the texels mean: heights in units of `scale`; tangent-space normals; slopes dh/du, dh/dv; normals in object or
+/// world space.
+enum class Content { height, normal, slope, object_normal };
 enum class Upscale { plain, smooth };  ///< [Mik20 listing 16] isUpscaleHQ false or true
 enum class Wrap { repeat, clamp };
+enum class Encoding { automatic, sign, unit };  ///< slopes as they are, or 2 texel - 1; automatic: by the file's format
+enum class SlopeUnit { texel, texture };        ///< what a slope of 1 rises over
 
 struct TextureUse {
     std::filesystem::path file{};
     Content content = Content::height;
     Upscale upscale = Upscale::smooth;
     Wrap wrap = Wrap::repeat;
-    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals only
+    bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals and slopes
+    Encoding encoding = Encoding::automatic;  ///< slopes only
+    SlopeUnit unit = SlopeUnit::texel;        ///< slopes only
 };
 
 // --- Texture coordinates -------------------------------------------------------------------------------------------
@@ -70,11 +74,34 @@ struct Mask {
 
 // --- Layers --------------------------------------------------------------------------------------------------------
 
+/// Where tangent and bitangent come from: the G-buffer's planes, as the renderer interpolated them (mikkTSpace), or the
+/// derivatives of the texture coordinates; automatic takes the planes where they are there and fit the mapping.
+enum class TangentSource { automatic, derived, planes };
+
 /// Tangent-space normal map, TBN style: strength does not depend on the tiling [Mik20 3.2, 3.3].
 struct NormalMapLayer {
     static constexpr const char* kind = "normal_map";
     TextureUse texture{.content = Content::normal};
     UvMapping uv{};
+    TangentSource frame = TangentSource::automatic;
+};
+
+/// Normals in object or world space, as a bake of the whole surface gives them [Mik20 3.4].
+struct ObjectNormalLayer {
+    static constexpr const char* kind = "object_normal";
+    TextureUse texture{.content = Content::object_normal};
+    UvMapping uv{};
+    std::array<Vec3, 3> channels{
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< where red, green and blue point, in object space
+    std::array<Vec3, 3> object_to_world{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows; may scale and mirror
+};
+
+/// Slopes of a height, scale dependent [Mikkelsen 2011, derivative maps].
+struct DerivativeMapLayer {
+    static constexpr const char* kind = "derivative_map";
+    TextureUse texture{.content = Content::slope};
+    UvMapping uv{};
+    bool auto_scale = false;  ///< a height of 1 is as much as the pixel's texel is wide, instead of a metre
 };
 
 /// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].
@@ -92,12 +119,33 @@ struct TriplanarLayer {
     double sharpness = 3;  ///< exponent k of the weights, listing 14
 };
 
-/// Perlin 2002 gradient noise, a fractal sum: sum of gain^i noise(frequency lacunarity^i p), world space.
+enum class NoiseType { perlin, perlin1985, simplex, worley };
+enum class CellFeature { f1, f2, f2_f1 };  ///< distance to the nearest point, to the second nearest, their difference
+enum class FractalKind { sum, turbulence, ridged };
+enum class NoiseGradient { analytic, forward, central };  ///< exact, or by differences of values, to compare
+
+/// What is composed with noise f: first the remap, then one of the others at most.
+struct NoiseShape {
+    std::optional<std::array<double, 2>> remap;       ///< brings the first to 0 and the second to 1
+    std::optional<double> power;                      ///< f^power, 1 at least; 0 for f below 0
+    std::optional<std::array<double, 2>> smoothstep;  ///< from 0 at the first to 1 at the second
+    std::optional<double> bias;                       ///< what 1/2 becomes, in (0,1); f in [0,1]
+};
+
+/// Noise in world space, a fractal of octaves gain^i noise(frequency lacunarity^i p).
 struct NoiseLayer {
     static constexpr const char* kind = "noise";
     double frequency = 1;  ///< lattice cells per metre of the first octave
     int octaves = 1;       ///< at most; those above the footprint's Nyquist frequency are not evaluated
     double lacunarity = 2, gain = 0.5;
+    NoiseType type = NoiseType::perlin;
+    CellFeature feature = CellFeature::f1;  ///< worley
+    FractalKind fractal = FractalKind::sum;
+    double offset = 1, feedback = 2;        ///< ridged: height of the ridges; weight of an octave on the next
+    std::array<double, 3> period{0, 0, 0};  ///< simplex: whole cells of the first octave at which an axis repeats, or 0
+    double rotation = 0;                    ///< simplex: radians by which gradients are turned, flow noise
+    NoiseGradient gradient = NoiseGradient::analytic;
+    NoiseShape shape{};
 };
 
 /// Oriented box projector [Mik20 4.5]. The image spans the box's x and y; it is projected along z.
@@ -143,14 +191,53 @@ struct Projector {
 /// rows of the same table before it made.
 struct DecalsLayer {
     static constexpr const char* kind = "decals";
-    std::vector<TextureUse> textures{};
+    std::vector<TextureUse> textures{};  ///< slopes are metres over metres, whatever their unit says
     std::shared_ptr<const std::vector<Projector>> rows{};
+};
+
+/// What a volume's value becomes before it is a height; t goes from 0 to 1 over a range of values.
+enum class Remap {
+    none,    ///< the value itself
+    ramp,    ///< t, flat outside the range
+    smooth,  ///< 3 t^2 - 2 t^3, flat outside the range
+    wave,    ///< sin(2 pi t)
+};
+
+enum class VolumeFilter {
+    linear,  ///< trilinear: exact at voxels; the gradient jumps from cell to cell
+    smooth,  ///< quadratic B-spline: a continuous gradient, the values smoothed a little
+};
+
+/// A grid of an OpenVDB or NanoVDB file. Of values: heights everywhere in space. Of vectors: the volume gradient dh/dp
+/// itself, world. Outside the grid nothing is bumped.
+struct VolumeLayer {
+    static constexpr const char* kind = "volume";
+    std::filesystem::path file{};
+    std::string grid{};  ///< empty: the only one of the file
+    VolumeFilter filter = VolumeFilter::linear;
+    Remap remap = Remap::none;
+    std::array<double, 2> range{0, 1};
+    Mat4 transform{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};  ///< after the file's own; affine
 };
 
 /// The same volume gradient everywhere: dh/dp, world.
 struct ConstantLayer {
     static constexpr const char* kind = "constant";
     Vec3 gradient{};
+};
+
+enum class ParallaxMode { offset, march };  ///< one step [Welsh 2004], or a search for where the ray meets the heights
+
+/// Moves the point that later layers see along the ray, to a height field over the surface [Mik20 4.3]. It bumps
+/// nothing itself. `scale` is the depth: metres for a height of 1.
+struct ParallaxLayer {
+    static constexpr const char* kind = "parallax";
+    TextureUse texture{};
+    UvMapping uv{};
+    ParallaxMode mode = ParallaxMode::march;
+    int steps = 32, refine = 3;  ///< of the march
+    double level = 0;            ///< the height that lies on the surface: 0 raises, 1 carves
+    bool curved = false;         ///< move the normal as well, by those of the neighbours
 };
 
 /// Normalise here and start a new stage on the resolved normal [Mik20 4.6].
@@ -164,7 +251,7 @@ struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
     std::variant<NormalMapLayer, HeightMapLayer, TriplanarLayer, NoiseLayer, DecalLayer, DecalsLayer, ConstantLayer,
-                 ResolveLayer>
+                 ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer, VolumeLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

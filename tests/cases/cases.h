@@ -46,6 +46,17 @@ struct Cases {
     void out(const std::string& answer, V2 v) { want[answer].push_back({v.x, v.y, 0}); }
     void out(const std::string& answer, real v) { want[answer].push_back({v, 0, 0}); }
 
+    /// "regular", or what makes a hard row hard: of golden rows their category, else what precedes the seed.
+    std::string category(std::size_t row) const {
+        if (!hard[row]) return "regular";
+        std::string text = labels[row];
+        if (const auto golden = text.find(": hard/"); golden != std::string::npos) {
+            text = text.substr(golden + 7);
+            return text.substr(0, text.find(" case "));
+        }
+        return text.substr(0, text.find(", seed "));
+    }
+
     V vec(std::size_t row, const std::string& column) const {
         const auto part = [&](const char* p) { return real{inputs.at(column + p)[row]}; };
         return {part(".x"), part(".y"), part(".z")};

@@ -89,6 +89,36 @@ inline Cases height_slope_cases(bool smooth) {
     return c;
 }
 
+/// Listing 7: heights a pixel apart, repeated, at footprints from a fifth of a texel to the whole picture.
+inline Cases height_screen_slope_cases() {
+    Cases c{.name = "listing07 forward differences"};
+    c.data.constants_per_row = 1;  // the texture
+    const auto textures = golden_textures();
+    std::vector<const Pyramid*> heights;
+    for (const auto& [name, height] : textures) {
+        heights.push_back(&height);
+        add_heights(c.data, height, Address::repeat);
+    }
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        const std::size_t k = seed % heights.size();
+        const Pyramid& height = *heights[k];
+        const auto around = [&](real size) {
+            return V2{static_cast<float>(random.uniform(-1, 1) * size),
+                      static_cast<float>(random.uniform(-1, 1) * size)};
+        };
+        const real step = random.magnitude(-2, 0);
+        const V2 st = around(seed % 2 ? 1 : 1e5L), dx = around(step), dy = around(step);
+        const real lod = random.uniform(0, real(height.levels.size() - 1));
+        c.add("forward differences, seed " + std::to_string(seed), seed % 2 == 0);
+        c.data.constants.push_back(static_cast<double>(2 * k));
+        c.in("st", st), c.in("dst_dx", dx), c.in("dst_dy", dy), c.in("lod", lod);
+        const auto at = [&](V2 p) { return sample(height, 0, p, lod, Address::repeat); };
+        c.out("dh_dxy", V2{at(st + dx) - at(st), at(st + dy) - at(st)});
+    }
+    return c;
+}
+
 /// The same clamped, on a picture of odd size, also at its edges and corners.
 inline Cases clamped_slope_cases() {
     Cases c{.name = "clamped height slopes"};

@@ -1,71 +1,95 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include "tests/cases/cases.h"
-#include "tests/reference/fractal.h"
+#include "tests/reference/cellular.h"
+#include "tests/reference/simplex.h"
 
 namespace wrinkle::cases {
 
-/// Perlin noise: golden rows, cells all over the lattice up to 2^22, their faces, edges and corners.
-inline Cases noise_cases() {
-    Cases c{.name = "perlin2002_demo_dnoise"};
-    const auto answer = [&](V p) {
-        const auto n = reference::perlin_noise(p);
-        c.in("p", p);
-        c.out("value", n.value), c.out("gradient", n.gradient);
-    };
-    const GoldenTable table = reference::golden("perlin2002_demo_dnoise");
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        add_golden_row(c, table, i, {});
-        answer(table.vec(i, "p"));
-        c.want["value"].back().x = table.number(i, "want_n");
-        c.want["gradient"].back() = table.vec(i, "want_g");
-    }
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+/// A row of a noise at lattice coordinates.
+inline void add_noise(Cases& c, const std::string& label, bool hard, V p, const reference::NoiseValue<real>& want) {
+    c.add(label, hard);
+    c.in("p", p);
+    c.out("value", want.value), c.out("gradient", want.gradient);
+}
+
+/// Points near the origin, regular, and all over the lattice up to `far`, with their cells' faces, edges and corners.
+template <class Add>
+void each_lattice_point(real far, const Add& add) {
+    for (unsigned seed = 1; seed <= 400; ++seed) {
         Random random(seed);
-        V p = Random::rounded(random.box(1) * random.magnitude(-6, 6.6L));
-        if (seed % 3 == 0) p.x = std::floor(p.x);
-        if (seed % 7 == 0) p.y = std::ceil(p.y);
-        if (seed % 11 == 0) p = {std::floor(p.x), std::floor(p.y), std::floor(p.z)};
-        if (seed % 13 == 0) p.z = -1e-12L;
-        p = Random::rounded(p);
-        c.add("noise, seed " + std::to_string(seed), true);
-        answer(p);
+        const bool hard = seed > 100;
+        V p = random.box(hard ? std::min(far, random.magnitude(-6, std::log10(far))) : 40);
+        if (hard && seed % 3 == 0) p.x = std::floor(p.x);
+        if (hard && seed % 7 == 0) p.y = std::ceil(p.y);
+        if (hard && seed % 11 == 0) p = {std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+        if (hard && seed % 13 == 0) p.z = -1e-12L;
+        add(fmt::format("noise, seed {}", seed), hard, Random::rounded(p));
     }
+}
+
+/// Perlin's noise of 2002, with the golden rows, or of 1985.
+inline Cases perlin_cases(bool cubic) {
+    Cases c{.name = cubic ? "perlin1985" : "perlin2002_demo_dnoise"};
+    if (!cubic) {
+        const GoldenTable table = reference::golden(c.name);
+        for (std::size_t i = 0; i < table.size(); ++i)
+            add_noise(c, c.name + ": " + table.label(i), table.text(i, "set") == "hard", table.vec(i, "p"),
+                      {table.number(i, "want_n"), table.vec(i, "want_g")});
+    }
+    each_lattice_point(4e6L, [&](const std::string& label, bool hard, V p) {
+        add_noise(c, label, hard, p, reference::perlin_noise(p, cubic));
+    });
     return c;
 }
 
-constexpr int fractal_octaves = 8;
-
-/// Fractal sums seen from an eye far from the origin, with and without a footprint. Constants of a row: the gain, then
-/// 4 numbers an octave, the eye on its lattice and the frequency.
-inline Cases fractal_cases() {
-    Cases c{.name = "fractal sums"};
-    c.data.constants_per_row = 1 + 4 * fractal_octaves;
-    for (unsigned seed = 1; seed <= 200; ++seed) {
-        Random random(seed);
-        const real lacunarity = seed % 4 == 0 ? 0.5L : seed % 4 == 1 ? random.uniform(1.5L, 2.5L) : 2;
-        const reference::Fractal<real> f{random.magnitude(-1, 1), fractal_octaves, lacunarity, 0.5L};
-        const V eye = random.box(1000), p = random.box(3);
-        const real footprint = seed % 2 ? 0 : random.magnitude(-3, 0);
-        c.add("fractal, seed " + std::to_string(seed), seed % 4 != 2);
-        c.in("p", p), c.in("footprint", footprint);
-        const V want = reference::fractal_sum(f, eye + p, footprint).gradient;
-        // Of each octave that is added: the noise's bound times frequency and gain, and half an ulp of the
-        // lattice coordinate (< 512) times the largest second derivative.
-        real size = 0;
-        c.data.constants.push_back(static_cast<double>(f.gain));
-        real frequency = f.frequency, amplitude = 1;
-        for (int i = 0; i < fractal_octaves; ++i, frequency *= lacunarity, amplitude *= f.gain) {
-            for (const real e : {eye.x, eye.y, eye.z}) {
-                const real at = e * frequency;
-                c.data.constants.push_back(static_cast<double>(at - 256 * std::floor(at / 256)));
-            }
-            c.data.constants.push_back(static_cast<double>(frequency));
-            size += amplitude * frequency * reference::octave_weight(footprint * frequency);
-        }
-        c.allowance.back() = std::max(size, real{1e-30L});
-        c.out("gradient", want);
+/// Simplex noise: golden rows, then points up to 2^20. Constants of a row: its periods and its angle.
+inline Cases simplex_cases() {
+    Cases c{.name = "psrdnoise3_glsl"};
+    c.data.constants_per_row = 4;
+    const auto constants = [&](V period, real angle) {
+        for (const real v : {period.x, period.y, period.z, angle}) c.data.constants.push_back(static_cast<double>(v));
+    };
+    const GoldenTable table = reference::golden(c.name);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        add_noise(c, c.name + ": " + table.label(i), table.text(i, "set") == "hard", table.vec(i, "x"),
+                  {table.number(i, "want_n"), table.vec(i, "want_g")});
+        constants(table.vec(i, "period"), table.number(i, "alpha"));
     }
+    each_lattice_point(1e6L, [&](const std::string& label, bool hard, V p) {
+        Random random(static_cast<unsigned>(c.size()));
+        const V period{real(random.below(3) * random.below(100)), real(random.below(1 << 20)), real(random.below(9))};
+        const real angle = random.below(2) * random.uniform(-7, 7);
+        add_noise(c, label, hard, p, reference::simplex_noise(p, period, angle));
+        constants(period, angle);
+    });
+    return c;
+}
+
+/// Points whose gradient does not jump within `margin`. The digits of a point within its cell limit the direction to a
+/// feature point nearby: the bounds are for 0.1 cells and more, and grow nearer by.
+inline Cases worley_cases(reference::Cell feature, real margin = 1e-5L) {
+    Cases c{.name = "worley"};
+    each_lattice_point(4e6L, [&](const std::string& label, bool hard, V p) {
+        if (reference::distance_to_jump(p, feature) <= margin) return;
+        add_noise(c, label, hard, p, reference::worley_noise(p, feature));
+        c.allowance.back() = std::max(real{1}, 0.1L / reference::worley_noise(p, reference::Cell::f1).value);
+    });
+    return c;
+}
+
+/// Points whose second nearest feature point lies beyond the 27 cells around them: 1 in 5000 of those near a face.
+inline Cases worley_search_cases() {
+    Cases c{.name = "worley, where 27 cells are not enough"};
+    for (const V p : {V{132.078125L, -91.1875L, -143.0078125L}, V{116.359375L, 43.21875L, -197.9921875L},
+                      V{-73.96875L, 145.0L, 153.0078125L}, V{54.265625L, -87.8125L, -43.9921875L},
+                      V{-94.015625L, 125.234375L, -97.0078125L}, V{-78.0L, -35.359375L, 156.0078125L},
+                      V{-5.515625L, 92.953125L, -4.0078125L}, V{154.03125L, 197.40625L, -13.9921875L},
+                      V{-155.28125L, 82.765625L, -6.0078125L}, V{24.234375L, 137.625L, -30.0078125L},
+                      V{-8.09375L, -42.78125L, -130.9921875L}, V{95.40625L, 62.109375L, 144.0078125L}})
+        add_noise(c, fmt::format("point {}", c.size()), true, p, reference::worley_noise(p, reference::Cell::f2));
     return c;
 }
 

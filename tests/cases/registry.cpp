@@ -1,33 +1,102 @@
 #include "tests/cases/registry.h"
 
+#include "tests/cases/displacement.h"
+#include "tests/cases/fractal.h"
 #include "tests/cases/height_map.h"
 #include "tests/cases/noise.h"
+#include "tests/cases/parallax.h"
+#include "tests/cases/perturbed_normal.h"
+#include "tests/cases/prologue.h"
 #include "tests/cases/resolve.h"
 #include "tests/cases/screen_derivative.h"
 #include "tests/cases/surface_gradient.h"
 #include "tests/cases/tangent_frame.h"
 #include "tests/cases/tangent_normal.h"
 #include "tests/cases/texcoord.h"
+#include "tests/cases/texture_metres.h"
 #include "tests/cases/triplanar.h"
+#include "tests/cases/volume.h"
 
 namespace wrinkle::cases {
 
+using reference::Cell;
+using reference::Octaves;
+using Value = reference::NoiseValue<real>;
+
+constexpr real difference_margin = 1e-2L;  // several steps of a difference
+
 const std::map<std::string, Cases (*)()>& registry() {
     static const std::map<std::string, Cases (*)()> all{
+        {"displace", displace_cases},
+        {"displace_curved", displace_curved_cases},
+        {"facing_normal", facing_cases},
+        {"fractal_sum", [] { return fractal_cases(Octaves::sum); }},
+        {"golden_march", golden_march_cases},
+        {"golden_ratio", golden_ratio_cases},
+        {"height_screen_slope", height_screen_slope_cases},
         {"height_slope_plain", [] { return height_slope_cases(false); }},
         {"height_slope_smooth", [] { return height_slope_cases(true); }},
-        {"perlin_noise", noise_cases},
+        {"parallax_march", parallax_march_cases},
+        {"parallax_normal", parallax_normal_cases},
+        {"perlin1985_noise", [] { return perlin_cases(true); }},
+        {"perlin1985_noise_central", [] { return perlin_cases(true); }},
+        {"perlin1985_noise_forward", [] { return perlin_cases(true); }},
+        {"perlin_noise", [] { return perlin_cases(false); }},
+        {"perlin_noise_central", [] { return perlin_cases(false); }},
+        {"perlin_noise_forward", [] { return perlin_cases(false); }},
+        {"project_to_texture", project_to_texture_cases},
+        {"rebase", rebase_cases},
+        {"remap_ramp", [] { return remap_cases(Remap::ramp); }},
+        {"remap_smooth", [] { return remap_cases(Remap::smooth); }},
+        {"remap_wave", [] { return remap_cases(Remap::wave); }},
         {"resolve", resolve_cases},
+        {"ridged_multifractal", [] { return fractal_cases(Octaves::ridged); }},
         {"screen_derivatives", [] { return screen_derivative_cases(true); }},
         {"screen_derivatives_general", [] { return screen_derivative_cases(false); }},
+        {"shape_bias",
+         [] { return shape_cases({0.25}, [](const Value& f) { return reference::shape_bias(f, 0.25L); }); }},
+        {"shape_power",
+         [] { return shape_cases({2.5}, [](const Value& f) { return reference::shape_power(f, 2.5L); }); }},
+        {"shape_remap",
+         [] {
+             return shape_cases({-0.5, 2}, [](const Value& f) { return reference::shape_remap(f, -0.5L, 2.0L); });
+         }},
+        {"shape_smoothstep",
+         [] {
+             return shape_cases({-0.25, 0.75},
+                                [](const Value& f) { return reference::shape_smoothstep(f, -0.25L, 0.75L); });
+         }},
+        {"simplex_noise", simplex_cases},
+        {"simplex_noise_central", simplex_cases},
+        {"simplex_noise_forward", simplex_cases},
+        {"surface_gradient_from_perturbed_normal", perturbed_normal_cases},
+        {"surface_gradient_from_screen_slope", screen_slope_cases},
         {"surface_gradient_from_tbn", tbn_cases},
         {"surface_gradient_from_volume", volume_gradient_cases},
         {"surface_gradient_scale_dependent", scale_dependent_cases},
         {"tangent_frame", tangent_frame_cases},
         {"tangent_normal_slope", tangent_normal_cases},
+        {"tangent_normal_slope_xy", tangent_normal_xy_cases},
+        {"texture_metres", texture_metres_cases},
+        {"texture_offset_to_surface", texture_offset_cases},
         {"texture_step", texcoord_step_cases},
         {"triplanar_gradient", triplanar_gradient_cases},
         {"triplanar_weights", triplanar_weight_cases},
+        {"turbulence", [] { return fractal_cases(Octaves::turbulence); }},
+        {"two_sided_normal", two_sided_cases},
+        {"vertex_frame", vertex_frame_cases},
+        {"volume_bspline", [] { return volume_cases(TexelKind::volume_smooth); }},
+        {"volume_trilinear", [] { return volume_cases(TexelKind::volume); }},
+        {"volume_vector", volume_vector_cases},
+        {"worley_f1", [] { return worley_cases(Cell::f1); }},
+        {"worley_f1_central", [] { return worley_cases(Cell::f1, difference_margin); }},
+        {"worley_f1_forward", [] { return worley_cases(Cell::f1, difference_margin); }},
+        {"worley_f2", [] { return worley_cases(Cell::f2); }},
+        {"worley_f2_central", [] { return worley_cases(Cell::f2, difference_margin); }},
+        {"worley_f2_f1", [] { return worley_cases(Cell::f2_f1); }},
+        {"worley_f2_f1_central", [] { return worley_cases(Cell::f2_f1, difference_margin); }},
+        {"worley_f2_f1_forward", [] { return worley_cases(Cell::f2_f1, difference_margin); }},
+        {"worley_f2_forward", [] { return worley_cases(Cell::f2, difference_margin); }},
     };
     return all;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include "run/frame_constants.h"
 #include "tests/cases/cases.h"
 #include "tests/reference/screen_derivative.h"
@@ -55,6 +57,7 @@ inline wr_frame frame_of(const Row& row) {
     put(f.d0, d0), put(f.dx, dx), put(f.dy, dy);
     put(f.dx_cross_d0, cross(dx, d0)), put(f.dx_cross_dy, cross(dx, dy));
     put(f.dy_cross_d0, cross(dy, d0)), put(f.dy_cross_dx, cross(dy, dx));
+    split_constants(f);
     return f;
 }
 
@@ -75,10 +78,78 @@ inline void add(Cases& c, const std::string& label, bool hard, const Row& row, b
     c.data.constants.insert(c.data.constants.end(), numbers, numbers + sizeof(wr_frame) / sizeof(double));
 }
 
+struct Projection {
+    const char* name;
+    Mat4x4<real> clip_from_view;
+};
+
+/// Every convention of depth, and no perspective.
+inline std::vector<Projection> projections() {
+    const auto perspective = [](reference::Vec4<real> depth) {
+        return Mat4x4<real>{{{1.2L, 0, 0.1L, 0}, {0, 2, -0.2L, 0}, depth, {0, 0, -1, 0}}};
+    };
+    const real near = 0.1L, far = 200;
+    return {{"perspective", perspective({0, 0, -(far + near) / (far - near), -2 * far * near / (far - near)})},
+            {"infinite depth", perspective({0, 0, -1, -2 * near})},
+            {"reversed depth", perspective({0, 0, near / (far - near), far * near / (far - near)})},
+            {"reversed infinite depth", perspective({0, 0, 0, near})},
+            {"oblique near plane", perspective({0.3L, -0.2L, -1.5L, -0.7L})},
+            {"orthographic", {{{0.1L, 0, 0, 0.2L}, {0, 0.2L, 0, -0.1L}, {0, 0, -0.02L, -1}, {0, 0, 0, 1}}}},
+            {"orthographic, reversed", {{{0.1L, 0, 0, 0}, {0, 0.2L, 0, 0}, {0, 0, 0.01L, 1}, {0, 0, 0, 1}}}}};
+}
+
+/// Normalised device coordinates of (x, y, depth, 1) on a screen.
+struct Screen {
+    const char* name;
+    Mat4x4<real> ndc_from_screen;
+};
+inline std::vector<Screen> screens() {
+    const auto screen = [](real sx, real sy, real ox, real oy) {
+        return Mat4x4<real>{{{sx, 0, 0, ox}, {0, sy, 0, oy}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    };
+    return {{"pixels", screen(2 / 1920.0L, -2 / 1080.0L, -1, 1)},
+            {"[-1,1]", screen(1, 1, 0, 0)},
+            {"[-1,1], y flipped", screen(1, -1, 0, 0)}};
+}
+
+/// Points before a camera with normals at any angle to their rays, down to a millionth of a radian from a horizon.
+inline void add_conventions(Cases& c, bool pinhole) {
+    unsigned seed = 0;
+    for (const Projection& projection : projections())
+        for (const Screen& screen : screens())
+            for (int i = 0; i < 10; ++i) {
+                Random random(++seed);
+                const V back = random.unit(), right = normalize(cross(random.unit(), back)), up = cross(back, right);
+                const V eye = random.box(20);
+                const Mat4x4<real> view{{{right.x, right.y, right.z, -dot(right, eye)},
+                                         {up.x, up.y, up.z, -dot(up, eye)},
+                                         {back.x, back.y, back.z, -dot(back, eye)},
+                                         {0, 0, 0, 1}}};
+                const Mat4x4<real> to_clip = reference::product(projection.clip_from_view, view);
+                const auto from_screen = reference::product(reference::inverted(to_clip), screen.ndc_from_screen);
+                if (pinhole && from_screen[3][2] == 0) continue;
+                const real z = random.magnitude(0, 2);
+                const V p =
+                    eye + right * (z * random.uniform(-0.7L, 0.7L)) + up * (z * random.uniform(-0.4L, 0.4L)) - back * z;
+                const reference::Vec4<real> point{p.x, p.y, p.z, 1};
+                const real w = reference::dot4(to_clip[3], point);
+                const auto on_screen = [&](std::size_t k) {
+                    return real{
+                        static_cast<float>((reference::dot4(to_clip[k], point) / w - screen.ndc_from_screen[k][3]) /
+                                           screen.ndc_from_screen[k][k])};
+                };
+                Row row = shifted(p, {}, from_screen, on_screen(0), on_screen(1));
+                const V ray = row.ray(), side = normalize(cross(ray, random.unit()));
+                row.n = Random::rounded(normalize(ray * random.magnitude(-6, 0) + side));
+                const std::string label = fmt::format("{}, {}, seed {}", projection.name, screen.name, seed);
+                add(c, label, i >= 5, row, pinhole);
+            }
+}
+
 }  // namespace detail
 
 /// The rows of listing 10, answered anew, because positions relative to the eye are rounded to other floats than those
-/// of the table; `pinhole` leaves out what has no eye.
+/// of the table, and cameras of every convention; `pinhole` leaves out what has no eye.
 inline Cases screen_derivative_cases(bool pinhole) {
     Cases c;
     c.data.constants_per_row = sizeof(wr_frame) / sizeof(double);
@@ -93,6 +164,7 @@ inline Cases screen_derivative_cases(bool pinhole) {
             detail::shifted(table.vec(i, "pos"), table.vec(i, "n"), m, table.number(i, "x0"), table.number(i, "y0"));
         detail::add(c, c.name + ": " + table.label(i), table.text(i, "set") == "hard", row, pinhole);
     }
+    detail::add_conventions(c, pinhole);
     return c;
 }
 

@@ -48,6 +48,31 @@ inline Cases scale_dependent_cases() {
     return c;
 }
 
+/// The same from changes per pixel, listing 6 with isDerivScreenSpace.
+inline Cases screen_slope_cases() {
+    Cases c{.name = "listing06_scale_dependent, screen"};
+    const auto answer = [&](const SurfaceDerivatives& d, V2 dh_dxy) {
+        c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dh_dxy", dh_dxy);
+        c.out("g", reference::surface_gradient_from_screen_slope(normalize(d.n), d.dp_dx, d.dp_dy, dh_dxy));
+    };
+    const GoldenTable table = reference::golden("listing06_scale_dependent");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        add_golden_row(c, table, i, {}, table.text(i, "category") == "normal_in_tangent_plane" ? 20 : 1);
+        answer(golden_derivatives(table, i), table.vec2(i, "deriv"));
+        if (finite(table.vec(i, "want_sgScr"))) c.want["g"].back() = table.vec(i, "want_sgScr");
+    }
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        Random random(seed);
+        SurfaceDerivatives d = random_derivatives(random);
+        const real size = length(d.dp_dx);
+        const V2 slope{static_cast<float>(random.uniform(-1, 1) * size),
+                       static_cast<float>(random.uniform(-1, 1) * size)};
+        c.add("screen slope, any footprint, seed " + std::to_string(seed), true);
+        answer(d, slope);
+    }
+    return c;
+}
+
 /// The tangential part of a volume gradient, listing 8.
 inline Cases volume_gradient_cases() {
     Cases c{.name = "listing08_volume_gradient"};

@@ -27,4 +27,23 @@ inline Cases tangent_normal_cases() {
     return c;
 }
 
+/// Slopes of the first two components of unit normals, up to the rim and beyond it.
+inline Cases tangent_normal_xy_cases() {
+    Cases c{.name = "two-channel normals"};
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        const real angle = random.uniform(0, 6.28L);
+        const real size = seed % 3 == 0   ? 1 - random.magnitude(-7, -1)
+                          : seed % 3 == 1 ? random.uniform(0, 1)
+                          : seed % 5 == 0 ? random.magnitude(0, 30)
+                                          : random.magnitude(-30, -3);
+        const V m = Random::rounded(V{std::cos(angle), std::sin(angle), 0} * size);
+        c.add("two-channel normal, seed " + std::to_string(seed), seed % 3 != 1);
+        c.in("m", V2{m.x, m.y});
+        const real z = std::sqrt(std::max(0.0L, 1 - m.x * m.x - m.y * m.y));
+        c.out("slope", reference::slope_from_tangent_normal(V{m.x, m.y, z}));
+    }
+    return c;
+}
+
 }  // namespace wrinkle::cases

@@ -29,10 +29,11 @@ struct Ran {
 /// A folder to run the program in, with a scene to run.
 class Workplace {
 public:
-    /// `before`: shell text in front of the program, such as "ulimit -f 8;" or "NAME=value".
-    Ran run(const std::string& arguments, const std::string& before = {}) const {
-        const std::string command = fmt::format("cd '{}' && {} '{}' {} > stdout.txt 2> stderr.txt < /dev/null",
-                                                (folder_ / "").string(), before, WRINKLE_CLI, arguments);
+    /// `before`: shell text in front of the program, such as "ulimit -f 8;" or "NAME=value". `input`: standard input.
+    Ran run(const std::string& arguments, const std::string& before = {},
+            const std::string& input = "/dev/null") const {
+        const std::string command = fmt::format("cd '{}' && {} '{}' {} > stdout.txt 2> stderr.txt < {}",
+                                                (folder_ / "").string(), before, WRINKLE_CLI, arguments, input);
         const int status = std::system(command.c_str());
         const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         Ran ran{code, read_text(folder_ / "stdout.txt"), read_text(folder_ / "stderr.txt")};

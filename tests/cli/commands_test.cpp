@@ -13,11 +13,11 @@ TEST(Commands, HelpAndVersion) {
     const Workplace place;
     const Ran help = place.run("--help");
     EXPECT_EQ(help.code, 0);
-    expect_mentions(help.out, {"run", "info", "explain", "devices", "Examples"});
+    expect_mentions(help.out, {"run", "info", "explain", "figures", "devices", "Examples"});
     const Ran version = place.run("--version");
     EXPECT_EQ(version.code, 0);
     EXPECT_TRUE(std::regex_match(version.out, std::regex("wrinkle \\d+\\.\\d+\\.\\d+\n"))) << version.out;
-    for (const char* command : {"run", "info", "explain", "devices"})
+    for (const char* command : {"run", "info", "explain", "figures", "devices"})
         EXPECT_EQ(place.run(std::string(command) + " --help").code, 0) << command;
     for (const auto& [arguments, named] : std::map<std::string, std::string>{
              {"", "command"}, {"paint", "paint"}, {"run", "SCENE"}, {"run a.toml --fast", "--fast"}}) {
@@ -96,6 +96,19 @@ TEST(Commands, RunPassesChannelsThrough) {
     in.read_rows(0, 68, std::vector{depth}, from);
     out.read_rows(0, 68, std::vector{depth}, to);
     EXPECT_EQ(before, after);
+}
+
+TEST(Commands, FiguresDrawPanelsSideBySide) {
+    const Workplace place;
+    place.write_scene(tilt + lit + "[[panel]]\ncaption = \"flat\"\nlayers = []\n[[panel]]\ncaption = \"tilted\"\n" +
+                      "layers = [\"tilt\"]\n");
+    const Ran ran = place.run("figures scene.toml -o drawn");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.out, "wrote drawn/scene.png\n");
+    EXPECT_EQ(place.files("drawn"), Names{"scene.png"});
+    expect_failed(place.run("run scene.toml"), {"panel", "wrinkle figures"});
+    place.write_scene(tilt);
+    expect_failed(place.run("figures scene.toml"), {"[[panel]]", "wrinkle run"});
 }
 
 TEST(Commands, RunOverASequence) {

@@ -26,7 +26,7 @@ Names layers(std::initializer_list<std::pair<const char*, const char*>> parts) {
 }
 
 TEST(Roles, EveryRoleHasThePlanesOfTheContract) {
-    EXPECT_EQ(gbuffer_roles().size(), 13u);
+    EXPECT_EQ(gbuffer_roles().size(), 16u);
     EXPECT_EQ(gbuffer_roles().front().planes, (Names{"position.x", "position.y", "position.z"}));
 }
 
@@ -48,6 +48,20 @@ TEST(Roles, Blender) {
     EXPECT_EQ(map.cryptomatte_layer, "ViewLayer.CryptoObject");
     EXPECT_FALSE(map.has_role("albedo"));
     EXPECT_FALSE(map.has_role("dp_du"));
+}
+
+TEST(Roles, TangentsWithTheirSign) {
+    auto names = layers({{"VL.Normal", "XYZ"}, {"VL.Tangent", "XYZW"}, {"VL.Bitangent", "XYZ"}});
+    expect_channels(
+        detect_roles(names),
+        {{"tangent.z", "VL.Tangent.Z"}, {"tangent_sign", "VL.Tangent.W"}, {"bitangent.x", "VL.Bitangent.X"}});
+    names = layers({{"N", "XYZ"}, {"tangent", "RGBA"}});  // alpha is coverage, until someone says otherwise
+    EXPECT_TRUE(detect_roles(names).has_role("tangent"));
+    EXPECT_FALSE(detect_roles(names).has_role("tangent_sign"));
+    expect_channels(detect_roles(names, {{"tangent_sign", "tangent.A"}}), {{"tangent_sign", "tangent.A"}});
+    names = layers({{"N", "XYZ"}, {"world_tangent", "XYZ"}});
+    names.push_back("tangent_sign");
+    expect_channels(detect_roles(names), {{"tangent.x", "world_tangent.X"}, {"tangent_sign", "tangent_sign"}});
 }
 
 TEST(Roles, BlenderViewLayersAreNotMixed) {

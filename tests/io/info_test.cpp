@@ -60,6 +60,9 @@ TEST(Info, SaysWhatEachUseLacks) {
     expect_mentions(info.camera->origin, {"f.exr.camera.json"});
     EXPECT_FALSE(info.camera->residual);
     EXPECT_EQ(use_of(info, "normal_map").missing, Names{"uv"});
+    EXPECT_EQ(use_of(info, "object_normal").missing, Names{"uv"});
+    EXPECT_EQ(use_of(info, "normal_map with frame = \"tangents\"").missing,
+              (Names{"uv", "tangent", "tangent_sign or bitangent"}));
     EXPECT_TRUE(use_of(info, "triplanar").missing.empty());
     EXPECT_EQ(use_of(info, "lighting").defaults, Names{"albedo"});
     EXPECT_EQ(use_of(info, "relight = \"ratio\"").missing, Names{"beauty"});

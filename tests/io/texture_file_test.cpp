@@ -36,6 +36,78 @@ TEST(TextureFile, FloatStaysAsItIs) {
     EXPECT_EQ(load_texture(folder / "h.exr", ImageUse::scalar).at(1, 0, 0), -27.0f);
 }
 
+TEST(TextureFile, SlopesArePerUnitOfTextureWithTUp) {
+    TempFolder folder;
+    const auto slope = [](int c, int, int y) {
+        return c == 0 ? 0.25f : c == 1 ? -0.5f + 0.1f * static_cast<float>(y) : 9.0f;
+    };
+    write_exr(folder / "d.exr", 8, 4, {"R", "G", "B"}, slope);
+    const Image per_texel = load_slopes(folder / "d.exr", Encoding::automatic, SlopeUnit::texel);
+    EXPECT_EQ(per_texel.channels, 2);
+    EXPECT_FLOAT_EQ(per_texel.at(0, 3, 0), 0.25f * 8);
+    EXPECT_FLOAT_EQ(per_texel.at(0, 3, 1), -0.5f * 4);  // the top row
+    EXPECT_FLOAT_EQ(load_slopes(folder / "d.exr", Encoding::sign, SlopeUnit::texture).at(5, 3, 1), -0.5f);
+    EXPECT_FLOAT_EQ(load_slopes(folder / "d.exr", Encoding::unit, SlopeUnit::texture).at(5, 3, 0), -0.5f);
+    const auto ends = [](int c, int, int) { return c == 0 ? 1.0f : 0.0f; };
+    write_exr(folder / "d.png", 8, 4, {"R", "G", "B"}, ends, OIIO::TypeUInt8);
+    const Image packed = load_slopes(folder / "d.png", Encoding::automatic, SlopeUnit::texture);
+    EXPECT_FLOAT_EQ(packed.at(2, 2, 0), 1);
+    EXPECT_FLOAT_EQ(packed.at(2, 2, 1), -1);
+}
+
+TEST(TextureFile, BumpslopesAreKnownByTheirChannels) {
+    TempFolder folder;
+    const auto ramp = [](int c, int, int) { return c == 1 ? 0.25f : c == 2 ? 0.5f : 7.0f; };  // t runs down
+    auto spec = make_spec(8, 4, {"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"});
+    write_image(folder / "b.exr", {{spec, ramp}});
+    const Image texels = load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture);
+    EXPECT_FLOAT_EQ(texels.at(3, 1, 0), 0.25f * 8);
+    EXPECT_FLOAT_EQ(texels.at(3, 1, 1), -0.5f * 4);
+    spec.attribute("uvslopes_scale", 16.0f);
+    write_image(folder / "b.exr", {{spec, ramp}});
+    EXPECT_FLOAT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel).at(3, 1, 1), -0.5f * 16);
+    const auto of_normals = [&](int c, int x, int y) { return c == 0 ? -1.0f : ramp(c, x, y); };  // t is theirs, up
+    write_image(folder / "b.exr", {{spec, of_normals}});
+    EXPECT_FLOAT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel).at(3, 1, 1), 0.5f * 16);
+    // What maketx itself wrote: the slopes are those of its heights.
+    const auto file = std::filesystem::path(WRINKLE_SOURCE_DIR) / "data/textures/ripples_bumpslopes.exr";
+    const Image height = load_texture(file, ImageUse::scalar);
+    const Image slopes = load_slopes(file, Encoding::automatic, SlopeUnit::texel);
+    for (int y = 1; y < 63; y += 7)
+        for (int x = 1; x < 63; x += 5) {
+            EXPECT_NEAR(slopes.at(x, y, 0), 32 * (height.at(x + 1, y, 0) - height.at(x - 1, y, 0)), 4) << x << " " << y;
+            EXPECT_NEAR(slopes.at(x, y, 1), 32 * (height.at(x, y + 1, 0) - height.at(x, y - 1, 0)), 4) << x << " " << y;
+        }
+}
+
+TEST(TextureFile, SlopesOfTheWrongChannels) {
+    TempFolder folder;
+    write_exr(folder / "h.exr", 4, 4, {"Y"});
+    expect_mentions(error_of([&] { load_slopes(folder / "h.exr", Encoding::automatic, SlopeUnit::texel); }),
+                    {"h.exr: has 1 channel; a derivative map needs 2"});
+    write_exr(folder / "b.exr", 4, 4, {"a", "b", "c", "d", "e", "f"});
+    expect_mentions(error_of([&] { load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel); }),
+                    {"has 6 channels", "maketx --bumpslopes", "b1_dhds"});
+}
+
+TEST(TextureFile, ObjectNormalsBecomeVectors) {
+    TempFolder folder;
+    const auto packed = [](int c, int x, int) { return x == 0 ? 128.0f / 255 : c == 2 ? 0.0f : 0.5f; };
+    write_exr(folder / "n.png", 4, 3, {"R", "G", "B"}, packed, OIIO::TypeUInt8);
+    const Image image = load_texture(folder / "n.png", ImageUse::object_normal);
+    ASSERT_EQ(image.channels, 3);
+    EXPECT_NEAR(image.at(1, 1, 2), -1, 1e-6);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(0, 1, c), 0) << "grey is no normal";
+    // Floats are vectors, even if none is negative; unless they are unit only once unpacked.
+    write_exr(folder / "v.exr", 4, 3, {"R", "G", "B"}, [](int c, int, int) { return c == 2 ? 1.0f : 0.0f; });
+    EXPECT_EQ(load_texture(folder / "v.exr", ImageUse::object_normal).at(1, 1, 2), 1);
+    write_exr(folder / "p.exr", 4, 3, {"R", "G", "B"}, [](int c, int, int) { return c == 2 ? 1.0f : 0.5f; });
+    EXPECT_EQ(load_texture(folder / "p.exr", ImageUse::object_normal).at(1, 1, 0), 0);
+    write_exr(folder / "two.exr", 4, 3, {"X", "Y"});
+    expect_mentions(error_of([&] { load_texture(folder / "two.exr", ImageUse::object_normal); }),
+                    {"has 2 channels", "object-space normal map needs 3"});
+}
+
 TEST(TextureFile, AlphaDoesNotScaleTheData) {
     TempFolder folder;
     write_exr(

@@ -1,17 +1,9 @@
 // sources/fractal.clh
-#include "tests/cases/noise.h"
+#include "tests/cases/fractal.h"
 #include "tests/kernels/check.h"
 
 namespace wrinkle::test {
 namespace {
-
-TEST(Fractal, GradientOfTheSum) {
-    const std::string call = fmt::format(
-        "vec3 g = wr_fractal_gradient(p, constants + 1, constants[0], {}, footprint,\n"
-        "                             (mask)(p.x == p.x));",
-        cases::fractal_octaves);
-    check(cases::fractal_cases(), call, {{"gradient", xyz("g"), ErrorMeasure::absolute, 1e-3, 1e-3, 1e-9}});
-}
 
 TEST(Fractal, WeightAndFootprint) {
     cases::Cases c{.name = "octave weights"};

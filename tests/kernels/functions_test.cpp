@@ -6,6 +6,7 @@
 #include "functions/tables.h"
 #include "tests/cases/registry.h"
 #include "tests/kernels/check.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::test {
 namespace {
@@ -31,13 +32,11 @@ TEST_P(EveryFunction, KeepsItsDocumentedError) {
             for (const ErrorMeasure measure : result.measures) {
                 const double error = variant.max_errors.at(bound++);
                 std::vector<std::string> outputs = result.columns();
-                answers.push_back({result.name, outputs, measure, error, error, function.fp64_error});
+                answers.push_back(
+                    {result.name, outputs, measure, error, error, function.fp64_error, variant.everywhere});
             }
         ASSERT_EQ(bound, variant.max_errors.size());
-        std::string unit;  // in double, a normal of floats is not unit
-        for (const Parameter& parameter : function.parameters)
-            if (parameter.unit_length) unit += fmt::format("{0} = unit({0});\n", parameter.name);
-        check(cases, unit + column_kernel(function, variant).body, answers);
+        Checker(cases, answers, [&](bool fp64) { return cases::kernel_of(function, variant, fp64).body; }).run();
     }
 }
 
@@ -54,6 +53,22 @@ TEST_P(EveryFunction, IsDescribedInFull) {
     for (const FunctionVariant& variant : function.variants) standard |= variant.precision == Precision::standard;
     EXPECT_TRUE(standard);
     EXPECT_TRUE(std::ranges::is_sorted(function.variants, {}, &FunctionVariant::precision));
+}
+
+TEST(EvaluateFunction, RefusesDoubleWhereThereIsNone) {
+    Device device = test_device();
+    device.info.fp64 = false;
+    const Function& resolve = wrinkle::function("resolve");
+    const std::vector<double> one(1, 1);
+    ColumnsInDouble in;
+    for (const Parameter& parameter : resolve.parameters)
+        for (const std::string& column : parameter.columns()) in.emplace(column, one);
+    try {
+        evaluate_function(device, resolve, in, ColumnResultsInDouble{});
+        ADD_FAILURE() << "evaluated";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("no double precision"), std::string::npos) << error.what();
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Functions, EveryFunction, testing::ValuesIn(names()),

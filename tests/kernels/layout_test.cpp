@@ -61,6 +61,8 @@ TEST(Layout, Frame) {
     MEMBER(width), MEMBER(height), MEMBER(eye_high), MEMBER(eye_low), MEMBER(d0), MEMBER(dx), MEMBER(dy);
     MEMBER(dx_cross_d0), MEMBER(dx_cross_dy), MEMBER(dy_cross_d0), MEMBER(dy_cross_dx);
     MEMBER(c0), MEMBER(c1), MEMBER(c2), MEMBER(c3), MEMBER(w), MEMBER(forward);
+    MEMBER(d0_low), MEMBER(dx_low), MEMBER(dy_low);
+    MEMBER(c0_low), MEMBER(c1_low), MEMBER(c2_low), MEMBER(c3_low), MEMBER(w_low);
     check_layout("wr_frame", members, sizeof s);
 }
 

@@ -6,7 +6,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// One picture of odd size with a channel pair, repeated.
+/// One picture of odd size, stored with one, two and three channels, repeated.
 struct Picture {
     cases::Pyramid pyramid;
     cases::Cases cases{.name = "texture samples"};
@@ -14,13 +14,14 @@ struct Picture {
     Picture() {
         cases::Random random(3);
         reference::Level<real> top{21, 11, {}};
-        for (int i = 0; i < 2 * 21 * 11; ++i) top.texels.push_back(random.uniform(-1, 1));
-        pyramid = reference::build_pyramid(top, 2);
+        for (int i = 0; i < 4 * 21 * 11; ++i) top.texels.push_back(random.uniform(-1, 1));
+        pyramid = reference::build_pyramid(top, 4);
         const auto texel = [](const auto& level, int c, int x, int y) {
             return level.at(c, x, y, cases::Address::repeat);
         };
         cases::add_texture(this->cases.data, pyramid, 1, texel);
         cases::add_texture(this->cases.data, pyramid, 2, texel);
+        cases::add_texture(this->cases.data, pyramid, 4, texel);  // three channels take four floats
     }
 };
 
@@ -37,13 +38,16 @@ TEST(Texture, SamplesAreTrilinear) {
         c.in("st", at), c.in("lod", lod);
         const auto channel = [&](int k) { return sample(picture.pyramid, k, at, lod, cases::Address::repeat); };
         c.out("one", channel(0)), c.out("two", V2{channel(0), channel(1)});
+        c.out("three", V{channel(0), channel(1), channel(2)});
     }
     check(c,
           "real s = wr_repeat(st.x), v = wr_repeat(st.y);\n"
           "real one = wr_texture_sample1(wr_texture_at(texels, textures, 0), s, v, lod);\n"
-          "vec2 two = wr_texture_sample2(wr_texture_at(texels, textures, 1), s, v, lod);",
+          "vec2 two = wr_texture_sample2(wr_texture_at(texels, textures, 1), s, v, lod);\n"
+          "vec3 three = wr_texture_sample3(wr_texture_at(texels, textures, 2), s, v, lod);",
           {{"one", {"one"}, ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
-           {"two", xy("two"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
+           {"two", xy("two"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
+           {"three", xyz("three"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
 }
 
 TEST(Texture, LodIsFiniteAndWithinThePyramidForAnyDerivative) {

@@ -110,6 +110,22 @@ TEST(Plan, TakesTheBestUvDerivativesThereAre) {
     EXPECT_FALSE(has("object"));
 }
 
+TEST(Plan, ParallaxMovesTheUvPlaneOnlyForLayersAfterIt) {
+    ParallaxLayer depth;
+    depth.texture.file = "stones.png";
+    depth.uv.source = UvSource::planar;
+    const auto plan = [&](std::vector<Layer> layers) { return make_plan(scene_of(std::move(layers)), everything()); };
+    EXPECT_FALSE(mentions(plan({layer(depth), layer(NoiseLayer{})}), "uv"));
+    EXPECT_FALSE(mentions(plan({layer(normal_map(), "first"), layer(depth)}), "uv.st = wr_add"));
+    EXPECT_TRUE(mentions(plan({layer(depth), layer(normal_map(), "last")}), "uv.st = wr_add"));
+    EXPECT_FALSE(plan({layer(depth)}).neighbours);
+    depth.curved = true;
+    EXPECT_TRUE(plan({layer(depth)}).neighbours);
+    Layer deep = layer(depth, "deep");
+    deep.scale = -1;
+    expect_mentions(refusal(scene_of({deep}), everything()), {"deep", "scale is -1", "above 0"});
+}
+
 TEST(Plan, PrefersDepthUnlessTheSceneOrTheCameraSaysOtherwise) {
     Scene scene = scene_of({});
     Available available = everything();
@@ -226,6 +242,25 @@ TEST(Plan, RowsOfATableBringTheirMasksAndRegions) {
     expect_mentions(refusal(scene_of({table(rows)}), everything()), {"texture 2", "has 2"});
 }
 
+TEST(Plan, ARegionIsNoTextureForOtherLayers) {
+    std::vector<Projector> rows(1);
+    rows[0].region = {0, 0, 0.5, 0.5};
+    HeightMapLayer whole;
+    whole.texture.file = "seal.png";
+    whole.texture.wrap = Wrap::clamp;
+    const Plan plan = make_plan(scene_of({table(rows), layer(whole)}), everything());
+    ASSERT_EQ(plan.textures.size(), 2u);
+    EXPECT_EQ(plan.textures[1].region, (std::array<double, 4>{0, 0, 1, 1}));
+}
+
+TEST(Plan, TablesOfDecalsStandBeforeParallax) {
+    ParallaxLayer depth;
+    depth.texture.file = "stones.png";
+    const Layer wear = table(std::vector<Projector>(2), "wear"), stones = layer(depth, "stones");
+    EXPECT_TRUE(make_plan(scene_of({wear, stones}), everything()).tiles);
+    expect_mentions(refusal(scene_of({stones, wear}), everything()), {"wear", "parallax", "stones"});
+}
+
 TEST(Plan, OrdersTablesThatReplaceByPriorityAndOthersByPlace) {
     std::vector<Projector> rows(3);
     rows[0].priority = 2, rows[1].priority = 1, rows[2].priority = 1;
@@ -246,14 +281,14 @@ TEST(Plan, OriginsRepeatAsTheirLayersDo) {
     const Plan plan = make_plan(
         scene_of({planar, clamped, layer(tiles), layer(NoiseLayer{.frequency = 3, .octaves = 2})}), everything());
     ASSERT_EQ(plan.origins.size(), 5u);
-    EXPECT_EQ(plan.origins[0].period, 1);
+    EXPECT_EQ(plan.origins[0].period, (Vec3{1, 1, 1}));
     EXPECT_EQ(plan.origins[0].axes[1], (Vec3{0, 4, 0}));
     EXPECT_EQ(plan.origins[0].offset, (Vec3{0.25, 0.5, 0}));
-    EXPECT_EQ(plan.origins[1].period, 0) << "a clamped coordinate must not be reduced";
+    EXPECT_EQ(plan.origins[1].period, (Vec3{0, 0, 0})) << "a clamped coordinate must not be reduced";
     EXPECT_EQ(plan.origins[2].axes[2], (Vec3{0, 0, 0.25}));
     EXPECT_EQ(plan.origins[3].axes[0], (Vec3{3, 0, 0}));
     EXPECT_EQ(plan.origins[4].axes[0], (Vec3{6, 0, 0}));
-    EXPECT_EQ(plan.origins[3].period, 256);
+    EXPECT_EQ(plan.origins[3].period, (Vec3{256, 256, 256}));
 }
 
 TEST(Plan, ListsSectionsByStage) {

@@ -37,6 +37,7 @@ public:
 
     Vec<T> eye() const { return eye_; }  ///< world
     bool pinhole() const { return pinhole_; }
+    bool parallel() const { return parallel_; }
 
     /// The eye-relative point that the pixel position (x, y) sees at view depth z: camera-space (a, b, -z) with
     /// clip.x = X clip.w and clip.y = Y clip.w, two linear equations in a and b.

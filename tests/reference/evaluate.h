@@ -14,7 +14,7 @@ struct Evaluated {
     Vec<T> base_normal;              ///< decoded: unit, towards the viewer
     Vec<T> surface_gradient;         ///< of the last stage
     ScreenDerivative<T> base, last;  ///< dp_dx, dp_dy on the base normal and on the last stage's normal
-    Vec<T> position, view;           ///< eye-relative; unit towards the eye
+    Vec<T> position, view;           ///< eye-relative, where parallax moved it; unit towards the eye
     int marked = 0;                  ///< wrinkle/gbuffer.h, Marked
     bool stage_reflected = false;    ///< the resolved normal of an earlier stage faced away and was reflected
 };
@@ -29,9 +29,14 @@ public:
         for (const Layer& layer : scene.layers) {
             const auto make = [&](const auto& bump) { return make_layer<T>(bump, layer.footprint, textures); };
             const T sign = layer.blend == Blend::subtract ? T(-1) : T(1);
-            layers_.push_back({std::visit(make, layer.bump), sign * T(layer.scale),
+            const auto shift = [&](const auto& bump) { return make_shift<T>(bump, layer.footprint, textures); };
+            const auto* parallax = std::get_if<ParallaxLayer>(&layer.bump);
+            layers_.push_back({std::visit(make, layer.bump), std::visit(shift, layer.bump),
+                               parallax && parallax->curved, sign * T(layer.scale),
                                SceneMask<T>(layer.mask, layer.footprint, frame_, textures)});
             uses_uv_ = uses_uv_ || reads_uv_plane(layer);
+            if (const auto* map = std::get_if<NormalMapLayer>(&layer.bump))
+                uses_vertex_ = uses_vertex_ || uses_vertex_frame(*map, frame_.has_vertex_frame());
         }
     }
 
@@ -54,11 +59,16 @@ public:
         out.base = out.last = frame_.derivative(i, here.position, here.normal);
         if (here.reflected) out.marked |= Marked::back_facing;
 
-        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, std::nullopt};
+        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false};
         if (frame_.has("object")) s.object = frame_.plane("object")[i];
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};
             if (!s.uv) out.marked |= Marked::no_uv_derivative;
+        }
+        if (uses_vertex_) {
+            s.vertex_planes = true;
+            s.vertex = frame_.vertex_frame(i);
+            if (!s.vertex) out.marked |= Marked::no_uv_derivative;
         }
         Vec<T> surface, volume;
         const auto finish = [&] {
@@ -70,12 +80,13 @@ public:
                 finish();
                 out.stage_reflected = out.stage_reflected || dot(out.normal, here.view) < 0;
                 s.normal = face_viewer(out.normal, here.view);
-                s.d = out.last = frame_.derivative(i, here.position, s.normal);
+                s.d = out.last = frame_.derivative(i, out.position, s.normal);
                 surface = volume = {};
                 continue;
             }
             const std::optional<T> mask = layer.mask.at(i, s);
             if (!mask || *mask == 0) continue;
+            if (layer.shift) move(i, layer, layer.scale * *mask, s, out);
             const Contribution<T> c = layer.function(s);
             surface = surface + c.surface * (layer.scale * *mask);
             volume = volume + c.volume * (layer.scale * *mask);
@@ -106,9 +117,35 @@ public:
 private:
     struct Entry {
         LayerFunction<T> function;  ///< empty: resolve
+        ShiftFunction<T> shift;     ///< empty: moves nothing
+        bool curved;                ///< turns the normal as well
         T scale;                    ///< with the blend's sign
         SceneMask<T> mask;
     };
+
+    /// Moves the surfel along the pixel's ray; the texture coordinates go on linearly, in space and from pixel to
+    /// pixel.
+    void move(std::size_t i, const Entry& layer, T depth, Surfel<T>& s, Evaluated<T>& out) const {
+        const bool parallel = frame_.rays().parallel();
+        const T distance = parallel ? std::numeric_limits<T>::infinity() : length(out.position);
+        const T nearer = layer.shift(s, out.view, distance, depth);
+        const Vec<T> normal = s.normal;
+        if (layer.curved && nearer != 0) {
+            const ScreenDerivative<T> turning = frame_.normal_derivative(i, frame_.decode(i), out.base);
+            if (const auto pixels = screen_vector(s.normal, s.d.dp_dx, s.d.dp_dy, out.view * nearer))
+                s.normal = parallax_normal(s.normal, turning.dp_dx, turning.dp_dy, *pixels, out.view);
+        }
+        out.position = out.position + out.view * nearer;
+        s.position = out.position + frame_.rays().eye();
+        const ScreenDerivative<T> before = s.d;
+        s.d = out.last = frame_.derivative(i, out.position, s.normal);
+        if (!s.uv) return;
+        const TexDerivative<T> d = s.uv->d;
+        const auto step = [&](Vec<T> dp) {
+            return project_to_texture(normal, before.dp_dx, before.dp_dy, d, dp, false);
+        };
+        *s.uv = {s.uv->st + step(out.view) * nearer, {step(s.d.dp_dx), step(s.d.dp_dy)}};
+    }
 
     static bool reads_uv_plane(const Layer& layer) {
         const auto reads = [](const auto& bump) {
@@ -127,7 +164,7 @@ private:
     Scene scene_;
     Frame<T> frame_;
     std::vector<Entry> layers_;
-    bool uses_uv_ = false;
+    bool uses_uv_ = false, uses_vertex_ = false;
 };
 
 }  // namespace wrinkle::reference

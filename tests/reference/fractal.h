@@ -1,15 +1,31 @@
 #pragma once
 
+#include <functional>
+
 #include "tests/reference/noise.h"
 
 namespace wrinkle::reference {
+
+/// Means over space of a noise n, of |n| and of n^2.
+template <class T>
+struct NoiseMeans {
+    T value{}, magnitude{}, square{};
+};
+
+enum class Octaves { sum, turbulence, ridged };
 
 template <class T>
 struct Fractal {
     T frequency = 1;
     int octaves = 1;
     T lacunarity = 2, gain = T(1) / 2;
+    Octaves kind = Octaves::sum;
+    T offset = 1, feedback = 2;
 };
+
+/// Noise of an octave, at lattice coordinates.
+template <class T>
+using OctaveNoise = std::function<NoiseValue<T>(int octave, Vec<T> p)>;
 
 /// Share of an octave that `cells` lattice cells per pixel leave: 1 up to a quarter, 0 from a half (Nyquist) on.
 template <class T>
@@ -17,23 +33,48 @@ T octave_weight(T cells) {
     return saturate(2 - 4 * cells);
 }
 
-/// Fractal sum [Perlin 1985] of gain^i noise(frequency lacunarity^i p) with octaves above the footprint's Nyquist
-/// frequency faded out. `footprint`: longest of |dp/dx|, |dp/dy|; 0 keeps every octave.
+/// Fractals of noise with octaves above the footprint's Nyquist frequency faded to their means. Sum and turbulence:
+/// Perlin 1985, of n and |n|; ridged multifractal: Musgrave, in Ebert et al., "Texturing and Modeling", 2003.
+/// `footprint`: longest of |dp/dx|, |dp/dy|; 0 keeps every octave. The gradient is that of a constant footprint.
 template <class T>
-NoiseValue<T> fractal_sum(const Fractal<T>& f, Vec<T> p, T footprint) {
-    NoiseValue<T> sum;
+NoiseValue<T> fractal(const Fractal<T>& f, const OctaveNoise<T>& noise, const NoiseMeans<T>& means, Vec<T> p,
+                      T footprint) {
+    NoiseValue<T> sum, previous{1, {}};
     T frequency = f.frequency, amplitude = 1;
     for (int i = 0; i < f.octaves; ++i) {
-        const T weight = amplitude * octave_weight(footprint * frequency);
-        if (weight != 0) {
-            const NoiseValue<T> n = perlin_noise(p * frequency);
-            sum.value += weight * n.value;
-            sum.gradient = sum.gradient + n.gradient * (weight * frequency);
+        const T share = octave_weight(footprint * frequency);
+        NoiseValue<T> n = noise(i, p * frequency);
+        n.gradient = n.gradient * frequency;
+        T mean = means.value;
+        if (f.kind != Octaves::sum) {
+            const T sign = n.value < 0 ? T(-1) : n.value > 0 ? T(1) : T(0);
+            n = {n.value * sign, n.gradient * sign};
+            mean = means.magnitude;
         }
+        if (f.kind == Octaves::ridged) {
+            const T ridge = f.offset - n.value;
+            n = {ridge * ridge, n.gradient * (-2 * ridge)};
+            mean = f.offset * f.offset - 2 * f.offset * means.magnitude + means.square;
+        }
+        n = {share * n.value + (1 - share) * mean, n.gradient * share};
+        if (f.kind == Octaves::ridged) {
+            n = {n.value * previous.value, n.gradient * previous.value + previous.gradient * n.value};
+            const T next = f.feedback * n.value;
+            previous =
+                next > 0 && next < 1 ? NoiseValue<T>{next, n.gradient * f.feedback} : NoiseValue<T>{saturate(next), {}};
+        }
+        sum = {sum.value + amplitude * n.value, sum.gradient + n.gradient * amplitude};
         frequency *= f.lacunarity;
         amplitude *= f.gain;
     }
     return sum;
+}
+
+/// The fractal sum of Perlin's noise of 2002.
+template <class T>
+NoiseValue<T> fractal_sum(const Fractal<T>& f, Vec<T> p, T footprint) {
+    return fractal<T>(
+        f, [](int, Vec<T> q) { return perlin_noise(q); }, {}, p, footprint);
 }
 
 }  // namespace wrinkle::reference

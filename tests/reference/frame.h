@@ -10,6 +10,7 @@
 #include "tests/reference/camera_rays.h"
 #include "tests/reference/resolve.h"
 #include "tests/reference/uv_derivative.h"
+#include "tests/reference/vertex_frame.h"
 #include "wrinkle/gbuffer.h"
 #include "wrinkle/scene.h"
 
@@ -104,11 +105,52 @@ public:
         return TexDerivative<T>{*dx, *dy};
     }
 
+    bool has_vertex_frame() const { return has("tangent.z") && (has("tangent_sign") || has("bitangent.z")); }
+
+    /// The renderer's tangents; nothing where they are not finite.
+    std::optional<TangentFrame<T>> vertex_frame(std::size_t i) const {
+        const auto read = [&](const std::string& name) {
+            return Vec<T>{T(plane(name + ".x")[i]), T(plane(name + ".y")[i]), T(plane(name + ".z")[i])};
+        };
+        const Vec<T> n = raw_normal(i), tangent = read("tangent");
+        if (!finite(tangent)) return std::nullopt;
+        if (has("tangent_sign")) {
+            const T sign = plane("tangent_sign")[i];
+            if (!std::isfinite(sign)) return std::nullopt;
+            return reference::vertex_frame(n, tangent, sign);
+        }
+        const Vec<T> bitangent = read("bitangent");
+        if (!finite(bitangent)) return std::nullopt;
+        return TangentFrame<T>{tangent / length(n), bitangent / length(n), false};
+    }
+
+    /// dn/dx, dn/dy of the normals as they came, made unit: half the difference of the two neighbours on an axis, the
+    /// difference to the one that belongs to the surface, or 0.
+    ScreenDerivative<T> normal_derivative(std::size_t i, const Decoded<T>& here,
+                                          const ScreenDerivative<T>& base) const {
+        const auto axis = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
+            const UvPixel<T> centre = uv_pixel(i, here);
+            std::vector<Vec<T>> steps;
+            if (index + 1 < count)
+                if (const auto next = neighbour(i + stride); same_surface(centre, next, dp))
+                    steps.push_back(next.normal - centre.normal);
+            if (index > 0)
+                if (const auto last = neighbour(i - stride); same_surface(centre, last, dp))
+                    steps.push_back(centre.normal - last.normal);
+            Vec<T> sum;
+            for (const Vec<T>& step : steps) sum = sum + step / T(steps.size());
+            return sum;
+        };
+        return {axis(1, i % size_.width, size_.width, base.dp_dx),
+                axis(size_.width, i / size_.width, size_.height, base.dp_dy)};
+    }
+
 private:
     UvPixel<T> uv_pixel(std::size_t i, const Decoded<T>& d) const {
         std::optional<float> object;
         if (!object_.empty()) object = object_[i];
-        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position, uv(i)};
+        return {d.valid, object, d.valid ? normalize(raw_normal(i)) : Vec<T>{}, d.position,
+                has("uv.u") ? uv(i) : Vec2<T>{}};
     }
 
     /// As a neighbour: a normal longer than 1e19 or shorter than 1e-19 is not compared with.

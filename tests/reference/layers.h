@@ -2,13 +2,21 @@
 
 #include <functional>
 
+#include "io/volume_file.h"
 #include "tests/reference/decal.h"
 #include "tests/reference/fractal.h"
+#include "tests/reference/noise_means.h"
+#include "tests/reference/noise_shape.h"
+#include "tests/reference/normal_transform.h"
+#include "tests/reference/parallax.h"
+#include "tests/reference/perturbed_normal.h"
 #include "tests/reference/projector.h"
 #include "tests/reference/scale_dependent.h"
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
+#include "tests/reference/texture_metres.h"
 #include "tests/reference/triplanar.h"
+#include "tests/reference/volume.h"
 
 namespace wrinkle::reference {
 
@@ -23,11 +31,25 @@ struct Contribution {
 template <class T>
 using LayerFunction = std::function<Contribution<T>(const Surfel<T>&)>;
 
+/// Whether a layer goes by the renderer's tangents.
+inline bool uses_vertex_frame(const NormalMapLayer& layer, bool planes) {
+    const bool fits = layer.uv.source == UvSource::aov && layer.uv.rotation == 0;
+    return planes && fits && layer.frame != TangentSource::derived;
+}
+
 template <class T>
 LayerFunction<T> make_layer(const NormalMapLayer& layer, bool footprint, SceneTextures<T>& textures) {
     return [=, texture = textures.slopes(layer.texture, Content::normal)](const Surfel<T>& s) -> Contribution<T> {
         const auto at = map_coordinates(layer.uv, s);
         if (!at) return {{}, {}, false};
+        if (uses_vertex_frame(layer, s.vertex_planes)) {
+            if (!s.vertex) return {{}, {}, false};
+            const Vec2<T> d = texture.slope(*at, footprint);
+            const auto mirror = [](double scale) { return scale < 0 ? T(-1) : T(1); };
+            return {surface_gradient_from_tbn({d.x * mirror(layer.uv.scale[0]), d.y * mirror(layer.uv.scale[1])},
+                                              s.vertex->tangent, s.vertex->bitangent),
+                    {}};
+        }
         const TangentFrame<T> frame = tangent_frame(s.normal, s.d.dp_dx, s.d.dp_dy, at->d);
         if (frame.degenerate) return {};
         return {surface_gradient_from_tbn(texture.slope(*at, footprint), frame.tangent, frame.bitangent), {}};
@@ -60,10 +82,18 @@ LayerFunction<T> make_layer(const TriplanarLayer& layer, bool footprint, SceneTe
 
 template <class T>
 LayerFunction<T> make_layer(const NoiseLayer& layer, bool footprint, SceneTextures<T>&) {
-    const Fractal<T> fractal{T(layer.frequency), layer.octaves, T(layer.lacunarity), T(layer.gain)};
-    return [=](const Surfel<T>& s) -> Contribution<T> {
+    const Fractal<T> f{
+        T(layer.frequency), layer.octaves,    T(layer.lacunarity), T(layer.gain), static_cast<Octaves>(layer.fractal),
+        T(layer.offset),    T(layer.feedback)};
+    return [=, noise = octave_noise<T>(layer), means = noise_means<T>(layer),
+            shape = layer.shape](const Surfel<T>& s) -> Contribution<T> {
         const T longest = footprint ? std::max(length(s.d.dp_dx), length(s.d.dp_dy)) : T(0);
-        return {{}, fractal_sum(fractal, s.position, longest).gradient};
+        NoiseValue<T> n = fractal<T>(f, noise, means, s.position, longest);
+        if (shape.remap) n = shape_remap(n, T((*shape.remap)[0]), T((*shape.remap)[1]));
+        if (shape.power) n = shape_power(n, T(*shape.power));
+        if (shape.smoothstep) n = shape_smoothstep(n, T((*shape.smoothstep)[0]), T((*shape.smoothstep)[1]));
+        if (shape.bias) n = shape_bias(n, T(*shape.bias));
+        return {{}, n.gradient};
     };
 }
 
@@ -115,8 +145,97 @@ LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextu
 }
 
 template <class T>
+LayerFunction<T> make_layer(const VolumeLayer& layer, bool, SceneTextures<T>&) {
+    const auto volume = std::make_shared<const Volume>(load_volume(layer.file, layer.grid));
+    const Mat4 m = multiply(volume->info.index_from_world, inverse(layer.transform));
+    const auto channel = [=](int c) -> Voxels<T> {
+        return [=](int x, int y, int z) { return T(volume->at(x, y, z, c)); };
+    };
+    return [=](const Surfel<T>& s) -> Contribution<T> {
+        const auto row = [&](int i) { return Vec<T>{T(m[i][0]), T(m[i][1]), T(m[i][2])}; };
+        const auto index = [&](int i) { return dot(row(i), s.position) + T(m[i][3]); };
+        const Vec<T> q{index(0), index(1), index(2)};
+        if (volume->info.channels == 3)
+            return {{},
+                    {trilinear(channel(0), q).value, trilinear(channel(1), q).value, trilinear(channel(2), q).value}};
+        const NoiseValue<T> v =
+            layer.filter == VolumeFilter::smooth ? quadratic_spline(channel(0), q) : trilinear(channel(0), q);
+        const Vec<T> dh_dp = row(0) * v.gradient.x + row(1) * v.gradient.y + row(2) * v.gradient.z;
+        return {{}, dh_dp * remapped(layer.remap, v.value, T(layer.range[0]), T(layer.range[1])).y};
+    };
+}
+
+template <class T>
 LayerFunction<T> make_layer(const ConstantLayer& layer, bool, SceneTextures<T>&) {
     return [g = from_array<T>(layer.gradient)](const Surfel<T>&) -> Contribution<T> { return {{}, g}; };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const ObjectNormalLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    const auto channel = [&](int k) { return from_array<T>(layer.channels[k]); };
+    return [=, texture = textures.slopes(layer.texture, Content::object_normal), red = channel(0), green = channel(1),
+            blue = channel(2)](const Surfel<T>& s) -> Contribution<T> {
+        const auto at = map_coordinates(layer.uv, s);
+        if (!at) return {{}, {}, false};
+        const Vec<T> texel = texture.vector(*at, footprint);
+        const Vec<T> v = transform_normal(layer.object_to_world, red * texel.x + green * texel.y + blue * texel.z);
+        if (is_zero(v)) return {};
+        return {surface_gradient_from_normal(s.normal, v), {}};
+    };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const DerivativeMapLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    return [=, texture = textures.slopes(layer.texture, Content::slope)](const Surfel<T>& s) -> Contribution<T> {
+        const auto at = map_coordinates(layer.uv, s);
+        if (!at) return {{}, {}, false};
+        Vec2<T> dh_dst = texture.slope(*at, footprint);
+        if (layer.auto_scale) {
+            const Level<T>& top = texture.pyramid->levels.front();
+            const T texels = layer.texture.unit == SlopeUnit::texel ? std::sqrt(T(top.width) * top.height) : T(1);
+            dh_dst = dh_dst * (texture_metres(s.d.dp_dx, s.d.dp_dy, at->d) / texels);
+        }
+        return {surface_gradient_scale_dependent(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, dh_dst), {}};
+    };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const ParallaxLayer&, bool, SceneTextures<T>&) {
+    return [](const Surfel<T>&) -> Contribution<T> { return {}; };
+}
+
+/// How far a layer moves a surfel towards the viewer, metres along the ray. `view` is the unit to the viewer, who is
+/// `distance` away; `depth` is what a height of 1 stands for.
+template <class T>
+using ShiftFunction = std::function<T(const Surfel<T>&, Vec<T> view, T distance, T depth)>;
+
+/// Nothing moves unless the kind says so.
+template <class T, class Bump>
+ShiftFunction<T> make_shift(const Bump&, bool, SceneTextures<T>&) {
+    return {};
+}
+
+template <class T>
+ShiftFunction<T> make_shift(const ParallaxLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    return [=, texture = textures.slopes(layer.texture, Content::height)](const Surfel<T>& s, Vec<T> view, T distance,
+                                                                          T depth) -> T {
+        const auto at = map_coordinates(layer.uv, s);
+        if (!at) return 0;
+        const auto height = [&](Vec2<T> st) {
+            return sample(*texture.pyramid, 0, st, texture.lod(at->d, footprint), texture.wrap);
+        };
+        const T level = layer.level;
+        T reach = layer.mode == ParallaxMode::offset ? depth : depth / std::max(dot(s.normal, view), T(0.05L));
+        reach = std::min(reach, level < 1 ? distance / (2 * (1 - level)) : distance * T(1e6L));
+        const auto pixels = screen_vector(s.normal, s.d.dp_dx, s.d.dp_dy, view);
+        if (!pixels) return 0;
+        if (footprint) reach *= saturate(std::hypot(pixels->x, pixels->y) * reach / T(0.5L) - 1);
+        if (!(reach > 0)) return 0;
+        if (layer.mode == ParallaxMode::offset) return reach * (height(at->st) - level);
+        const Vec2<T> range = project_to_texture(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, view, false) * reach;
+        const T step = parallax_step(texture.pyramid->levels[0], range, texture.lod(at->d, footprint), layer.steps);
+        return reach * (parallax_march(height, at->st, range, level, step, layer.steps, layer.refine) - level);
+    };
 }
 
 template <class T>

@@ -43,8 +43,9 @@ Vec<T> perlin_direction(int hash) {
 
 /// Perlin, "Improving Noise", SIGGRAPH 2002: the sum over the 8 corners of a lattice cell of
 /// w(dx) w(dy) w(dz) (g . d), w the fade polynomial 1 - (6t^5 - 15t^4 + 10t^3); the gradient is its product rule.
+/// With `cubic` the fade of "An Image Synthesizer", SIGGRAPH 1985: 1 - (3t^2 - 2t^3).
 template <class T>
-NoiseValue<T> perlin_noise(Vec<T> p) {
+NoiseValue<T> perlin_noise(Vec<T> p, bool cubic = false) {
     const std::array<T, 3> x{p.x, p.y, p.z};
     std::array<int, 3> cell{};
     std::array<std::array<T, 2>, 3> w{}, dw{}, d{};
@@ -52,7 +53,8 @@ NoiseValue<T> perlin_noise(Vec<T> p) {
         const T f = std::floor(x[i]), t = x[i] - f;
         const T m = std::fmod(f, T(256));
         cell[i] = static_cast<int>(m < 0 ? m + 256 : m);
-        const T fade = t * t * t * (t * (t * 6 - 15) + 10), slope = 30 * t * t * (t - 1) * (t - 1);
+        const T fade = cubic ? t * t * (3 - 2 * t) : t * t * t * (t * (t * 6 - 15) + 10);
+        const T slope = cubic ? 6 * t * (1 - t) : 30 * t * t * (t - 1) * (t - 1);
         w[i] = {1 - fade, fade};
         dw[i] = {-slope, slope};
         d[i] = {t, t - 1};

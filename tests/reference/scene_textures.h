@@ -33,7 +33,13 @@ struct LayerTexture {
         const Level<T>& top = pyramid->levels.front();
         return footprint ? level_of_detail(d, top.width, top.height, static_cast<int>(pyramid->levels.size())) : T(0);
     }
-    /// Height: dh per unit s and t. Normal: the unitless slope.
+    /// Vector of an object-space normal map.
+    Vec<T> vector(const TexCoord<T>& at, bool footprint) const {
+        const T level = lod(at.d, footprint);
+        const auto part = [&](int k) { return sample(*pyramid, k, at.st, level, wrap); };
+        return {part(0), part(1), part(2)};
+    }
+    /// Height and slope maps: dh per unit s and t. Normal: the unitless slope.
     Vec2<T> slope(const TexCoord<T>& at, bool footprint) const {
         const T level = lod(at.d, footprint);
         if (content != Content::height)
@@ -60,17 +66,15 @@ Pyramid<T> slope_pyramid(const Image& image, bool y_down) {
     return build_pyramid(std::move(top), 2);
 }
 
-/// Slopes as they are, [0,1] to [-1,1].
+/// All channels as they are, the second one negated where `y_down` asks for it.
 template <class T>
-Pyramid<T> signed_pyramid(const Image& image, bool y_down) {
-    const std::size_t count = static_cast<std::size_t>(image.width) * image.height;
-    Level<T> top{image.width, image.height, std::vector<T>(2 * count)};
-    for (std::size_t i = 0; i < count; ++i) {
-        const float* c = image.texels.data() + i * image.channels;
-        top.texels[i] = 2 * T(c[0]) - 1;
-        top.texels[count + i] = (2 * T(c[1]) - 1) * (y_down ? -1 : 1);
-    }
-    return build_pyramid(std::move(top), 2);
+Pyramid<T> value_pyramid(const Image& image, bool y_down) {
+    Level<T> top{image.width, image.height, {}};
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = c; i < image.texels.size(); i += channels)
+            top.texels.push_back(y_down && c == 1 ? -T(image.texels[i]) : T(image.texels[i]));
+    return build_pyramid(std::move(top), image.channels);
 }
 
 using Region = std::array<double, 4>;  ///< s and t from, s and t to
@@ -98,7 +102,7 @@ public:
     explicit SceneTextures(const Images& images) : images_(images) {}
 
     LayerTexture<T> slopes(const TextureUse& use, Content content, const Region& region = whole) {
-        const bool y_down = content != Content::height && use.y_down;
+        const bool y_down = (content == Content::normal || content == Content::slope) && use.y_down;
         const Address wrap = use.wrap == Wrap::repeat ? Address::repeat : Address::clamp;
         return {pyramid(use.file.string(), content, y_down, region), content, use.upscale, wrap};
     }
@@ -115,9 +119,9 @@ private:
         const auto image = images_.find(file);
         if (image == images_.end()) throw std::runtime_error("reference: texture not given: " + file);
         const Image part = cut(image->second, region);
-        slot = std::make_shared<const Pyramid<T>>(content == Content::height   ? first_channel_pyramid<T>(part)
-                                                  : content == Content::normal ? slope_pyramid<T>(part, y_down)
-                                                                               : signed_pyramid<T>(part, y_down));
+        slot = std::make_shared<const Pyramid<T>>(content == Content::normal   ? slope_pyramid<T>(part, y_down)
+                                                  : content == Content::height ? first_channel_pyramid<T>(part)
+                                                                               : value_pyramid<T>(part, y_down));
         return slot;
     }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/reference/golden.h"
+#include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/resolve.h"
 #include "tests/reference/scale_dependent.h"
@@ -9,6 +10,7 @@
 #include "tests/reference/tangent_frame.h"
 #include "tests/reference/tangent_normal.h"
 #include "tests/reference/tbn.h"
+#include "tests/reference/vertex_frame.h"
 #include "tests/reference/volume_gradient.h"
 
 namespace wrinkle::reference {
@@ -89,10 +91,49 @@ TEST(Golden, ScaleDependent) {
     }
 }
 
+TEST(Golden, Prologue) {
+    const GoldenTable table = golden("listing09_prologue");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const Vec<real> n = table.vec(i, "In_n"), dp_dx = table.vec(i, "dPdx"), dp_dy = table.vec(i, "dPdy");
+        const auto frame = vertex_frame(n, table.vec(i, "In_t"), real{table.number(i, "In_t.w")});
+        expect_vec(table, i, frame.tangent, "want_mT");
+        expect_vec(table, i, frame.bitangent, "want_mB");
+        const Vec<real> base = normalize(n) * (table.number(i, "isFlip") != 0 ? real(-1) : real(1));
+        expect_vec(table, i, base, "want_n");
+        expect_vec(table, i, tangent_part(dp_dx, base), "want_sX");
+        expect_vec(table, i, tangent_part(dp_dy, base), "want_sY");
+        EXPECT_EQ(flip_sign(base, dp_dx, dp_dy), table.number(i, "want_flip_sign")) << table.label(i);
+    }
+}
+
 TEST(Golden, VolumeGradient) {
     const GoldenTable table = golden("listing08_volume_gradient");
     for (std::size_t i = 0; i < table.size(); ++i)
         expect_vec(table, i, surface_gradient_from_volume(unit_normal(table, i), table.vec(i, "g")), "want_sg");
+}
+
+TEST(Golden, ProjectToTexture) {
+    const GoldenTable table = golden("listing11_project_vec_to_tex");
+    for (std::size_t i = 0; i < table.size(); ++i)
+        for (const bool projected : {false, true}) {
+            const Vec2<real> along =
+                project_to_texture(unit_normal(table, i), table.vec(i, "dPdx"), table.vec(i, "dPdy"),
+                                   st_derivative(table, i), table.vec(i, "dir"), projected);
+            const Vec2<real> got = along * real{table.number(i, "bumpScale")};
+            const Vec2<real> want = table.vec2(i, projected ? "want_v" : "want_vSkip");
+            EXPECT_TRUE(finite(got)) << table.label(i);
+            if (!finite(want)) continue;
+            EXPECT_LE(relative_error(got, want), tolerance(table, i)) << table.label(i);
+        }
+}
+
+TEST(Golden, TextureOffsetToSurface) {
+    const GoldenTable table = golden("listing12_tex_offs_to_surface");
+    for (std::size_t i = 0; i < table.size(); ++i)
+        expect_vec(table, i,
+                   texture_offset_to_surface(table.vec(i, "sigmaX"), table.vec(i, "sigmaY"), st_derivative(table, i),
+                                             table.vec2(i, "offs")),
+                   "want_d");
 }
 
 TEST(Golden, ScreenDerivative) {

@@ -14,8 +14,10 @@ struct Surfel {
     Vec<T> position;  ///< world
     Vec<T> normal;
     ScreenDerivative<T> d;
-    std::optional<TexCoord<T>> uv;   ///< the UV plane; nothing without plane or derivative
-    std::optional<double> object{};  ///< the object's index, where the frame has it
+    std::optional<TexCoord<T>> uv;          ///< the UV plane; nothing without plane or derivative
+    std::optional<TangentFrame<T>> vertex;  ///< the renderer's tangents; nothing without planes, or not finite
+    bool vertex_planes = false;             ///< the G-buffer has them
+    std::optional<double> object{};         ///< the object's index, where the frame has it
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.

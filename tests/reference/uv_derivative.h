@@ -16,17 +16,21 @@ struct UvPixel {
     Vec2<T> uv;
 };
 
+/// Whether j may be differenced with i along an axis of position derivative dp: no object, normal or depth break.
+template <class T>
+bool same_surface(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
+    const Vec<T> step = j.position - i.position;
+    return j.valid && i.object == j.object && dot(i.normal, j.normal) > T(1) / 2 && dot(step, step) <= 16 * dot(dp, dp);
+}
+
 /// uv[j] - uv[i] if j may be differenced with i along an axis of position derivative dp: no object, normal, depth or UV
 /// break between them.
 template <class T>
 std::optional<Vec2<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
-    const Vec<T> step = j.position - i.position;
     const Vec2<T> d = j.uv - i.uv;
     const T half = T(1) / 2;
-    const bool same_surface =
-        j.valid && i.object == j.object && dot(i.normal, j.normal) > half && dot(step, step) <= 16 * dot(dp, dp);
     const bool same_chart = std::abs(d.x) < half && std::abs(d.y) < half;
-    if (!same_surface || !same_chart) return std::nullopt;
+    if (!same_surface(i, j, dp) || !same_chart) return std::nullopt;
     return d;
 }
 

@@ -155,6 +155,124 @@ TEST(Frames, UvDerivativesOfPlanesAreTakenAsTheyAre) {
     }
 }
 
+/// Tangents as a renderer interpolates them: neither unit nor perpendicular to the normal, which is not unit either.
+HostFrame frame_with_tangents() {
+    HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted * 0.8), test_camera());
+    for (const char* name : {"tangent.x", "tangent.y", "tangent.z", "tangent_sign"}) frame.add(name);
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        const double turn = 0.02 * static_cast<double>(i);
+        frame.pixels.at("tangent.x")[i] = static_cast<float>(0.9 * std::cos(turn));
+        frame.pixels.at("tangent.y")[i] = static_cast<float>(0.9 * std::sin(turn));
+        frame.pixels.at("tangent.z")[i] = 0.1f;
+        frame.pixels.at("tangent_sign")[i] = i % 3 == 0 ? -1.0f : 1.0f;
+    }
+    frame.pixels.at("tangent.y")[44] = NAN;
+    frame.pixels.at("tangent_sign")[45] = INFINITY;
+    for (const char* name : {"tangent.x", "tangent.y", "tangent.z"}) frame.pixels.at(name)[46] = 0;
+    return frame;
+}
+
+TEST(Frames, TangentsOfTheRenderer) {
+    HostFrame frame = frame_with_tangents();
+    Scene scene = small_scene();
+    auto& weave = std::get<NormalMapLayer>(scene.layers[0].bump);
+    weave.uv.scale = {2, -3};
+    expect_agreement("tangents, found", frame, scene);
+    weave.frame = TangentSource::planes;
+    expect_agreement("tangents, asked for", frame, scene);
+    EXPECT_EQ(evaluate_on(frame, scene).at("marked")[44], Marked::no_uv_derivative);
+    EXPECT_EQ(evaluate_on(frame, scene).at("marked")[46], 0);
+    Scene staged = scene;
+    Layer resolve;
+    resolve.name = "resolve", resolve.bump = ResolveLayer{};
+    staged.layers = {staged.layers[2], resolve, staged.layers[0], staged.layers[1]};
+    const Truth truth(frame, staged);
+    expect_within("tangents after a resolve", normal_error(evaluate_on(frame, staged), truth), {1e-4, 1e-3, 3e-3},
+                  "degrees");
+    weave.frame = TangentSource::derived;
+    expect_agreement("tangents, ignored", frame, scene);
+}
+
+TEST(Frames, BitangentsOfTheRenderer) {
+    HostFrame frame = frame_with_tangents();
+    frame.remove("tangent_sign");
+    for (const char axis : {'x', 'y', 'z'}) frame.add(std::string("bitangent.") + axis, axis == 'y' ? 0.7f : 0.2f);
+    Scene scene = small_scene();
+    std::get<NormalMapLayer>(scene.layers[0].bump).frame = TangentSource::planes;
+    expect_agreement("bitangents", frame, scene);
+    frame.remove("bitangent.x");
+    try {
+        evaluate(device(), scene, frame.frame);
+        ADD_FAILURE() << "no bitangent, no sign";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("layer \"weave\" (without tangent_sign) needs bitangent.x"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(Frames, ObjectNormalsOfATurnedScaledAndMirroredObject) {
+    const HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+    Scene scene = small_scene();
+    ObjectNormalLayer rope;
+    rope.texture.file = data_folder / "textures/rope_object_normal.png";
+    rope.texture.wrap = Wrap::clamp;
+    rope.channels = {{{0, 1, 0}, {0, 0, -1}, {1, 0, 0}}};
+    rope.object_to_world = {{{0.5, 1, 0.2}, {-2, 0.3, 0}, {0.1, 0, -3}}};
+    scene.layers[0].bump = rope, scene.layers[0].scale = 0.3;
+    const Truth truth(frame, scene);  // gradients of normals that are nearly tangent are huge: angles only
+    expect_within("object normals", normal_error(evaluate_on(frame, scene), truth), {1e-4, 1e-3, 3e-3}, "degrees");
+    std::get<ObjectNormalLayer>(scene.layers[0].bump).object_to_world[2] = {0, 0, 0};
+    EXPECT_THROW(evaluate(device(), scene, frame.frame), Error);
+}
+
+TEST(Frames, DerivativeMapsOfEveryScale) {
+    const HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+    for (const bool automatic : {false, true})
+        for (const SlopeUnit unit : {SlopeUnit::texel, SlopeUnit::texture}) {
+            Scene scene = small_scene();
+            DerivativeMapLayer rock;
+            rock.texture.file = data_folder / "textures/rock_slopes.png";
+            rock.texture.unit = unit, rock.texture.y_down = automatic;
+            rock.auto_scale = automatic;
+            rock.uv.scale = {3, -1};
+            scene.layers[0].bump = rock, scene.layers[0].scale = automatic ? 0.5 : 0.01;
+            expect_agreement("derivative maps", frame, scene);
+        }
+}
+
+TEST(Frames, DecalsOfSlopesAndTheirRegions) {
+    const HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+    const reference::Frame<double> decoder({}, frame.frame.size, frame.frame.camera, frame.planes());
+    const V at = decoder.decode(frame.count() / 2).position + decoder.rays().eye();
+    std::vector<Projector> rows(2);
+    for (Projector& row : rows) {
+        row.center = {at.x, at.y, at.z};
+        row.half_size = {3, 2, 4};
+        row.two_sided = true;
+        row.angle_fade = {0, 0.1};
+    }
+    rows[1].region = {0.25, 0.5, 0.75, 1};
+    rows[1].shape = ProjectorShape::cone;
+    rows[1].scale = 0.3;
+    for (const Encoding encoding : {Encoding::automatic, Encoding::sign}) {
+        DecalsLayer wear;
+        wear.textures = {{.file = data_folder / "textures/rock_slopes.png", .content = Content::slope}};
+        wear.textures[0].encoding = encoding;
+        wear.textures[0].y_down = encoding == Encoding::sign;
+        wear.rows = std::make_shared<const std::vector<Projector>>(rows);
+        Scene scene = small_scene();
+        scene.layers[0].bump = wear;
+        expect_agreement("decals of slopes", frame, scene);
+        scene.layers.resize(1);
+        const Pixels alone = evaluate_on(frame, scene);
+        std::size_t bumped = 0;
+        for (std::size_t i = 0; i < frame.count(); ++i)
+            bumped += length(vec_at(alone, "surface_gradient", i)) > 1e-3 ? 1 : 0;
+        EXPECT_GT(bumped, 50u);
+    }
+}
+
 TEST(Frames, InvertedTextureMaskIsZeroWithoutUvDerivative) {
     HostFrame frame(plane_frame(test_camera(), {9, 9}, slanted), test_camera());
     frame.add("object");

@@ -65,11 +65,11 @@ inline Camera orthonormal(Camera camera) {
     return camera;
 }
 
-/// data/gbuffer/small.exr, every channel of it.
-inline HostFrame small_frame() {
-    const GBufferReader reader(data_folder / "gbuffer/small.exr");
+/// A frame of data/gbuffer, every channel of it.
+inline HostFrame data_frame(const std::string& name) {
+    const GBufferReader reader(data_folder / "gbuffer" / (name + ".exr"));
     CameraSource source;
-    source.file = data_folder / "gbuffer/small.camera.json";
+    source.file = data_folder / "gbuffer" / (name + ".camera.json");
     HostFrame out;
     out.frame.size = reader.size();
     out.frame.camera = orthonormal(read_camera(source, reader));
@@ -83,6 +83,8 @@ inline HostFrame small_frame() {
     return out;
 }
 
+inline HostFrame small_frame() { return data_frame("small"); }
+
 /// A scene of data/scenes, with `marked` written as well.
 inline Scene data_scene(const std::string& name) {
     Scene scene = load_scene(data_folder / "scenes" / (name + ".toml"));
@@ -93,19 +95,22 @@ inline Scene data_scene(const std::string& name) {
 /// Every texture that a scene names.
 inline reference::Images images_of(const Scene& scene) {
     reference::Images images;
-    const auto add = [&](const fs::path& file, Content content) {
-        Image image = load_texture(file, content == Content::height ? ImageUse::scalar : ImageUse::normal);
-        images[file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
+    const auto add = [&](const TextureUse& use) {
+        Image image = load_bump(use);
+        images[use.file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
     };
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { bump.texture; }) add(bump.texture.file, bump.texture.content);
+                if constexpr (requires { bump.texture; }) add(bump.texture);
                 if constexpr (requires { bump.textures; })
-                    for (const TextureUse& use : bump.textures) add(use.file, use.content);
+                    for (TextureUse use : bump.textures) {
+                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        add(use);
+                    }
             },
             layer.bump);
-        if (layer.mask.texture) add(layer.mask.texture->file, Content::height);
+        if (layer.mask.texture) add({.file = layer.mask.texture->file});
     }
     return images;
 }

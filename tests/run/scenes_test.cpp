@@ -29,19 +29,25 @@ TEST_P(DataScene, AgreesWithTheReference) {
 }
 
 // About three times what was measured with PoCL 3.1 at 16 lanes. Heights: slopes are stored as floats, and a step
-// between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it.
+// between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it. Its family: the gradients of
+// cells and ridges jump, and a pixel on a jump may get either side's.
 constexpr Bounds light{2e-7, 1e-5, 1e-4};
 INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
                          testing::Values(SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
                                          SceneCase{"courtyard", {2e-6, 3e-4, 1e-3}, light},
                                          SceneCase{"decals", {3e-7, 2e-4, 1e-3}, light},
                                          SceneCase{"decal_table", {3e-7, 7e-5, 2.5e-4}, light},
+                                         SceneCase{"derivative_map", {3e-6, 2e-4, 1e-3}, light},
                                          SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light},
                                          SceneCase{"lighting", {3e-7, 3e-4, 1e-3}, {3e-7, 1e-5, 1e-4}},
                                          SceneCase{"noise", {2e-4, 2e-3, 4e-3}, {1e-6, 3e-5, 1.5e-4}},
+                                         SceneCase{"noise_family", {1e-5, 1.5e-2, 60}, {3e-7, 3e-4, 1}},
                                          SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light},
+                                         SceneCase{"object_normal", {3e-6, 2e-4, 1e-3}, light},
+                                         SceneCase{"parallax", {3e-6, 4e-4, 2e-3}, light},
                                          SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
-                                         SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light}),
+                                         SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light},
+                                         SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

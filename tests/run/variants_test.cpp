@@ -12,6 +12,11 @@ Scene mixed_scene() {
     const auto add = [&](const char* from, std::size_t layer) {
         scene.layers.push_back(data_scene(from).layers.at(layer));
     };
+    Layer depth = data_scene("height_map").layers.at(1);  // what follows on the wall lies deeper
+    const auto& stones = std::get<HeightMapLayer>(depth.bump);
+    depth.bump = ParallaxLayer{.texture = stones.texture, .uv = stones.uv, .curved = true};
+    depth.name = "depth";
+    scene.layers.push_back(depth);
     add("height_map", 1);
     add("normal_map", 0);
     add("resolve", 1);

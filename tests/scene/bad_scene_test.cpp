@@ -14,6 +14,10 @@ std::string height_map(const std::string& rest) {
     return layer("kind = \"height_map\"\ntexture = \"textures/wall.png\"\n" + rest);
 }
 
+std::string parallax(const std::string& rest) {
+    return layer("kind = \"parallax\"\ntexture = \"textures/wall.png\"\n" + rest);
+}
+
 TEST_F(BadScene, FileThatCannotBeRead) {
     const auto message = [](const std::filesystem::path& file) -> std::string {
         try {
@@ -57,6 +61,22 @@ TEST_F(BadScene, UnknownKeys) {
     expect_problem_with("\"a\\nb\" = 1\n", 5, {"unknown key \"a\\x0ab\""});
 }
 
+TEST_F(BadScene, NoiseOptionsThatMakeNoSense) {
+    expect_problem_with(noise("feature = \"f2\"\n"), 7, {"\"feature\"", "only with type = \"worley\""});
+    expect_problem_with(noise("rotation = 4\n"), 7, {"\"rotation\"", "only with type = \"simplex\""});
+    expect_problem_with(noise("type = \"worley\"\nperiod = [1, 1, 1]\n"), 8, {"only with type = \"simplex\""});
+    expect_problem_with(noise("feedback = 1\n"), 7, {"\"feedback\"", "only with fractal = \"ridged\""});
+    expect_problem_with(noise("type = \"worley\"\nfractal = \"ridged\"\n"), 8, {"\"fractal\"", "use \"sum\""});
+    expect_problem_with(noise("type = \"simplex\"\nperiod = [1, 2.5, 0]\n"), 8, {"\"period\"", "whole numbers"});
+    expect_problem_with(noise("type = \"simplex\"\noctaves = 2\nlacunarity = 2.5\nperiod = [4, 4, 4]\n"), 10,
+                        {"\"period\"", "whole lacunarity; it is 2.5"});
+    expect_problem_with(noise("type = \"simplex\"\noctaves = 16\nperiod = [99, 0, 0]\n"), 9, {"\"period\"", "at most"});
+    expect_problem_with(noise("shape = { power = 0.5 }\n"), 7, {"\"power\"", "shape of [[layer]]"});
+    expect_problem_with(noise("shape = { bias = 1 }\n"), 7, {"\"bias\""});
+    expect_problem_with(noise("shape = { remap = [2, 2] }\n"), 7, {"\"remap\"", "the smaller number first"});
+    expect_problem_with(noise("shape = { power = 2, bias = 0.5 }\n"), 7, {"more than one", "choose one"});
+}
+
 TEST_F(BadScene, KeysOfAnotherKind) {
     expect_problem_with(decal("octaves = 3\n"), 9,
                         {"\"octaves\" in [[layer]] \"decal 1\" does not belong to kind \"decal\" but to \"noise\"",
@@ -76,6 +96,9 @@ TEST_F(BadScene, UnknownNames) {
                         {"\"kind\" in [[layer]] 1 is \"decall\"; did you mean \"decal\"?", "allowed: \"normal_map\""});
     expect_problem_with(layer("octaves = 2\n"), 5, {"[[layer]] 1 needs the key \"kind\": \"normal_map\", "});
     expect_problem_with(layer("kind = 3\n"), 6, {"must be one of \"normal_map\"", "found 3"});
+    expect_problem_with(parallax("mode = \"steep\"\n"), 8, {"\"mode\"", "allowed: \"offset\", \"march\""});
+    expect_problem_with(parallax("mode = \"offset\"\nsteps = 9\n"), 9, {"\"steps\"", "mode", "march"});
+    expect_problem_with(parallax("blend = \"add\"\n"), 8, {"\"blend\"", "does not belong to kind \"parallax\""});
     expect_problem_with(noise("blend = \"sub\"\n"), 7, {"is \"sub\"; allowed: \"add\", \"subtract\""});
     expect_problem_with(height_map("wrap = \"Clamp\"\n"), 8, {"did you mean \"clamp\"?"});
     expect_problem_with("[lighting]\nrelight = \"on\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, 1]\n", 6,
@@ -121,6 +144,10 @@ TEST_F(BadScene, NumbersOutOfRange) {
     expect_problem_with(decal("angle_fade = [75, 60]\n"), 9, {"smaller angle first"});
     expect_problem_with(decal("angle_fade = [75, 190]\n"), 9, {"at most 180; found 190"});
     expect_problem_with(height_map("uv = { scale = [1, 0] }\n"), 8, {"must not be 0"});
+    expect_problem_with(parallax("scale = 0\n"), 8, {"\"scale\"", "must be greater than 0 and at most 1000000"});
+    expect_problem_with(parallax("steps = 0\n"), 8, {"from 1 to 1024; found 0"});
+    expect_problem_with(parallax("refine = 17\n"), 8, {"from 0 to 16; found 17"});
+    expect_problem_with(parallax("level = 1.5\n"), 8, {"must be at least 0 and at most 1; found 1.5"});
     expect_problem_with("[lighting]\nmax_ratio = 0.5\n", 6, {"must be at least 1"});
 }
 
@@ -132,11 +159,38 @@ TEST_F(BadScene, AxesThatSpanNoPlane) {
                         {"\"axis_v\"", "parallel"});
 }
 
+TEST_F(BadScene, ObjectNormals) {
+    const auto object_normal = [](const std::string& rest) {
+        return layer("kind = \"object_normal\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    for (const char* text : {"x y", "x y z w", "x y x", "x y w", "xyz", "x y --z", "x y +"})
+        expect_problem_with(object_normal("channels = \"" + std::string(text) + "\"\n"), 8,
+                            {"\"channels\"", "must name each axis once, as \"x -z y\" does"});
+    expect_problem_with(object_normal("object_to_world = [[1, 0, 0], [0, 1, 0]]\n"), 8,
+                        {"must be a 3x3 matrix, [[..], [..], [..]] with 3 numbers a row"});
+    expect_problem_with(object_normal("object_to_world = [[1, 0, 0], [0, 1, 0], [1, 1, 0]]\n"), 8,
+                        {"\"object_to_world\"", "must not flatten the object"});
+    expect_problem_with(object_normal("space = \"world\"\nobject_to_world = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"), 9,
+                        {"\"object_to_world\"", "space", "object"});
+}
+
+TEST_F(BadScene, FramesOfNormalMaps) {
+    const auto normal_map = [](const std::string& rest) {
+        return layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    expect_problem_with(normal_map("frame = \"tangent\"\n"), 8,
+                        {"did you mean \"tangents\"?", "\"auto\", \"derived\", \"tangents\""});
+    expect_problem_with(normal_map("frame = \"tangents\"\nuv = { rotation = 90 }\n"), 8,
+                        {"\"frame\"", "belongs to the UV pass as it is: uv must not be planar or turn"});
+    expect_problem_with(normal_map("frame = \"tangents\"\nuv = { source = \"planar\" }\n"), 8,
+                        {"\"frame\"", "UV pass"});
+}
+
 TEST_F(BadScene, MissingKeys) {
     EXPECT_EQ(problems("[camera]\nfrom = \"exr\"\n"),
               std::vector<std::string>{"courtyard.toml: needs [gbuffer], at least file = \"frame.exr\""});
     expect_problem("[gbuffer]\n[camera]\nfrom = \"exr\"\n", 1, {"[gbuffer] needs the key \"file\""});
-    for (const char* kind : {"normal_map", "height_map", "triplanar"})
+    for (const char* kind : {"normal_map", "height_map", "triplanar", "object_normal", "derivative_map"})
         expect_problem_with(layer("kind = \"" + std::string(kind) + "\"\n"), 5, {kind, "needs the key \"texture\""});
     expect_problem_with(layer("kind = \"decal\"\ntexture = \"textures/wall.png\"\n"), 5, {"needs the key \"center\""});
     expect_problem_with(layer("kind = \"constant\"\n"), 5, {"needs the key \"gradient\""});

@@ -132,6 +132,35 @@ TEST(Camera, ObliqueNearPlaneKeepsThePinhole) {
     EXPECT_EQ(plain->d0, oblique->d0);
 }
 
+TEST(Camera, DepthConventionsChangeNeitherRaysNorPixels) {
+    const double near_plane = 0.1, far_plane = 500;
+    const Vec3 point{4.5, 6.2, 3.4};
+    Camera camera = Camera::look_at({1, 2, 3}, {4, 6, 3}, {0, 0, 1}, 1, 16.0 / 9);
+    const auto plain = pinhole_rays(camera, size);
+    const auto pixel = project(camera, size, point);
+    ASSERT_TRUE(plain && pixel);
+    const std::array<double, 4> conventions[] = {
+        {0, 0, -(far_plane + near_plane) / (far_plane - near_plane),
+         -2 * far_plane * near_plane / (far_plane - near_plane)},                                           // -1 to 1
+        {0, 0, -far_plane / (far_plane - near_plane), -far_plane * near_plane / (far_plane - near_plane)},  // 0 to 1
+        {0, 0, near_plane / (far_plane - near_plane), far_plane * near_plane / (far_plane - near_plane)},   // 1 to 0
+        {0, 0, -1, -2 * near_plane},                                                                        // infinite
+        {0, 0, 0, near_plane},  // 1 to 0 at infinity
+    };
+    for (const auto& depth : conventions) {
+        camera.proj[2] = depth;
+        const auto rays = pinhole_rays(camera, size);
+        ASSERT_TRUE(rays);
+        EXPECT_EQ(rays->eye, plain->eye);
+        EXPECT_EQ(rays->d0, plain->d0);
+        EXPECT_EQ(rays->dx, plain->dx);
+        EXPECT_EQ(rays->dy, plain->dy);
+        EXPECT_EQ(project(camera, size, point), pixel);
+        const Mat4 clip = multiply(camera.proj, camera.view);
+        EXPECT_LT(residual(clip, inverse(clip)), 1e-13L);
+    }
+}
+
 TEST(Camera, NoRaysWithoutAnEye) {
     Camera camera = Camera::look_at({1, 2, 3}, {4, 6, 3}, {0, 0, 1}, 1, 1);
     const Mat4 perspective = camera.proj;

@@ -59,6 +59,10 @@ frequency = 3.5
 octaves = 16
 lacunarity = 2.25
 gain = 0.25
+type = "worley"
+feature = "f2-f1"
+gradient = "central"
+shape = { remap = [-1, 2], bias = 0.75 }
 
 [[layer]]
 kind = "resolve"
@@ -76,6 +80,20 @@ angle_fade = [60, 75]
 [[layer]]
 kind = "constant"
 gradient = [0.1, 0, -0.2]
+
+[[layer]]
+kind = "parallax"
+texture = "textures/wall.png"
+wrap = "clamp"
+uv = { scale = 3 }
+mode = "march"
+steps = 64
+refine = 5
+level = 0.5
+curved = true
+scale = 0.25
+footprint = false
+mask = { object = 2 }
 
 [lighting]
 relight = "ratio"

@@ -36,7 +36,7 @@ TEST_F(GoodScene, FrameAndCamera) {
 
 TEST_F(GoodScene, MappedLayers) {
     const Scene scene = load(full_scene);
-    ASSERT_EQ(scene.layers.size(), 7u);
+    ASSERT_EQ(scene.layers.size(), 8u);
     const Layer& plaster = scene.layers[0];
     EXPECT_EQ(plaster.name, "plaster");
     EXPECT_EQ(plaster.location, "courtyard.toml:15");
@@ -77,7 +77,7 @@ TEST_F(GoodScene, MappedLayers) {
 
 TEST_F(GoodScene, OtherLayers) {
     const Scene scene = load(full_scene);
-    ASSERT_EQ(scene.layers.size(), 7u);
+    ASSERT_EQ(scene.layers.size(), 8u);
     const auto& triplanar = std::get<TriplanarLayer>(scene.layers[2].bump);
     EXPECT_EQ(triplanar.texture.content, Content::normal);
     EXPECT_TRUE(triplanar.texture.y_down);
@@ -89,6 +89,12 @@ TEST_F(GoodScene, OtherLayers) {
     EXPECT_EQ(noise.octaves, 16);
     EXPECT_EQ(noise.lacunarity, 2.25);
     EXPECT_EQ(noise.gain, 0.25);
+    EXPECT_EQ(noise.type, NoiseType::worley);
+    EXPECT_EQ(noise.feature, CellFeature::f2_f1);
+    EXPECT_EQ(noise.gradient, NoiseGradient::central);
+    EXPECT_EQ(noise.shape.remap, (std::array<double, 2>{-1, 2}));
+    EXPECT_EQ(noise.shape.bias, 0.75);
+    EXPECT_FALSE(noise.shape.power || noise.shape.smoothstep);
     EXPECT_TRUE(std::holds_alternative<ResolveLayer>(scene.layers[4].bump));
     const auto& decal = std::get<DecalLayer>(scene.layers[5].bump);
     EXPECT_EQ(decal.texture.wrap, Wrap::clamp);
@@ -100,6 +106,81 @@ TEST_F(GoodScene, OtherLayers) {
     EXPECT_NEAR(decal.angle_fade[0], std::cos(75 * degree), 1e-15);
     EXPECT_NEAR(decal.angle_fade[1], 0.5, 1e-15);
     EXPECT_EQ(std::get<ConstantLayer>(scene.layers[6].bump).gradient, (Vec3{0.1, 0, -0.2}));
+    const auto& parallax = std::get<ParallaxLayer>(scene.layers[7].bump);
+    EXPECT_EQ(parallax.texture.file, folder_ / "textures/wall.png");
+    EXPECT_EQ(parallax.texture.wrap, Wrap::clamp);
+    EXPECT_EQ(parallax.uv.scale, (std::array<double, 2>{3, 3}));
+    EXPECT_EQ(parallax.mode, ParallaxMode::march);
+    EXPECT_EQ(parallax.steps, 64);
+    EXPECT_EQ(parallax.refine, 5);
+    EXPECT_EQ(parallax.level, 0.5);
+    EXPECT_TRUE(parallax.curved);
+    EXPECT_EQ(scene.layers[7].scale, 0.25);
+    EXPECT_FALSE(scene.layers[7].footprint);
+    EXPECT_EQ(scene.layers[7].mask.object, 2);
+}
+
+TEST_F(GoodScene, ObjectNormals) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "object_normal"
+texture = "textures/wall.png"
+channels = "+x -z y"
+object_to_world = [[0, 2, 0], [-1, 0, 0], [0, 0, 1]]
+wrap = "clamp"
+[[layer]]
+kind = "object_normal"
+texture = "textures/wall.png"
+space = "world"
+)");
+    const auto& rope = std::get<ObjectNormalLayer>(scene.layers.at(0).bump);
+    EXPECT_EQ(rope.texture.content, Content::object_normal);
+    EXPECT_EQ(rope.texture.wrap, Wrap::clamp);
+    EXPECT_EQ(rope.channels, (std::array<Vec3, 3>{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}));
+    EXPECT_EQ(rope.object_to_world[0], (Vec3{0, 2, 0}));
+    EXPECT_EQ(rope.object_to_world[1], (Vec3{-1, 0, 0}));
+    EXPECT_EQ(std::get<ObjectNormalLayer>(scene.layers.at(1).bump).object_to_world[2], (Vec3{0, 0, 1}));
+}
+
+TEST_F(GoodScene, DerivativeMaps) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "derivative_map"
+texture = "textures/wall.png"
+y = "-"
+encoding = "signed"
+slopes = "texture"
+bump_scale = "auto"
+[[layer]]
+kind = "derivative_map"
+texture = "textures/wall.png"
+[[layer]]
+kind = "normal_map"
+texture = "textures/wall.png"
+frame = "tangents"
+)");
+    const auto& slopes = std::get<DerivativeMapLayer>(scene.layers.at(0).bump);
+    EXPECT_EQ(slopes.texture.content, Content::slope);
+    EXPECT_TRUE(slopes.texture.y_down && slopes.auto_scale);
+    EXPECT_EQ(slopes.texture.encoding, Encoding::sign);
+    EXPECT_EQ(slopes.texture.unit, SlopeUnit::texture);
+    const auto& plain = std::get<DerivativeMapLayer>(scene.layers.at(1).bump);
+    EXPECT_FALSE(plain.texture.y_down || plain.auto_scale);
+    EXPECT_EQ(plain.texture.encoding, Encoding::automatic);
+    EXPECT_EQ(plain.texture.unit, SlopeUnit::texel);
+    EXPECT_EQ(std::get<NormalMapLayer>(scene.layers.at(2).bump).frame, TangentSource::planes);
+}
+
+TEST_F(GoodScene, FractalsOfSimplexNoise) {
+    const Scene scene = load_with(
+        "[[layer]]\nkind = \"noise\"\ntype = \"simplex\"\nperiod = [4, 0, 8]\nrotation = 90\noctaves = 3\n"
+        "fractal = \"ridged\"\noffset = 0.9\nfeedback = 3\nshape = { power = 2.5 }\n");
+    const auto& noise = std::get<NoiseLayer>(scene.layers.at(0).bump);
+    EXPECT_EQ(noise.type, NoiseType::simplex);
+    EXPECT_EQ(noise.period, (std::array<double, 3>{4, 0, 8}));
+    EXPECT_NEAR(noise.rotation, 90 * degree, 1e-15);
+    EXPECT_EQ(noise.fractal, FractalKind::ridged);
+    EXPECT_EQ(noise.offset, 0.9);
+    EXPECT_EQ(noise.feedback, 3);
+    EXPECT_EQ(noise.shape.power, 2.5);
 }
 
 TEST_F(GoodScene, LightingAndOutput) {

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "report.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Text as gnuplot reads it in double quotes, without markup.
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+/// Errors of 0 have no place on a logarithmic axis: they stand at the left edge.
+double shown_error(double error) { return std::max(error, 1e-16); }
+
+std::string label(const Measurement& m) {
+    return m.lanes > 0 ? fmt::format("{}, {} lanes", m.variant, m.lanes) : m.variant;
+}
+
+/// No other is at once faster and more accurate.
+bool on_front(const Measurement& m, const std::vector<const Measurement*>& all) {
+    for (const Measurement* other : all)
+        if (other != &m && other->ns_per_pixel() <= m.ns_per_pixel() && other->error.p99 <= m.error.p99 &&
+            (other->ns_per_pixel() < m.ns_per_pixel() || other->error.p99 < m.error.p99))
+            return false;
+    return true;
+}
+
+std::string points(const char* block, const std::vector<const Measurement*>& all, bool front) {
+    std::string text = fmt::format("${} << EOD\n", block);
+    std::vector<const Measurement*> some;
+    for (const Measurement* m : all)
+        if (!front || on_front(*m, all)) some.push_back(m);
+    std::ranges::sort(some, {}, [](const Measurement* m) { return m->error.p99; });
+    for (const Measurement* m : some)
+        text += fmt::format("{:.6g} {:.6g} {}\n", shown_error(m->error.p99), m->ns_per_pixel(), quoted(label(*m)));
+    return text + "EOD\n";
+}
+
+/// Error against time of the variants of one thing; the front is a line.
+std::string pareto(const std::string& name, const std::vector<const Measurement*>& all) {
+    return fmt::format(
+        "set title {}\nset xlabel {}\nset ylabel \"ns per pixel\"\nset logscale xy\nset format x \"%.0e\"\n{}{}"
+        "plot $front using 1:2 with lines lc rgb \"#c05020\" lw 2 notitle, "
+        "$all using 1:2 with points pt 7 ps 0.7 lc rgb \"#205080\" notitle, "
+        "$all using 1:2:3 with labels offset 0,0.9 font \",9\" noenhanced notitle\n",
+        quoted(name), quoted(fmt::format("error, 99% of the pixels, {}", all.front()->unit)),
+        points("front", all, true), points("all", all, false));
+}
+
+/// Arithmetic per byte against speed, under the ceilings of the machine.
+std::string roofline(const Run& run) {
+    std::string data = "$all << EOD\n";
+    for (const Measurement& m : run.measurements)
+        if (m.seconds.median > 0 && m.operations > 0 && m.lanes > 0 && m.variant != "double" && m.group != "start")
+            data += fmt::format("{:.6g} {:.6g} {}\n", m.operations / m.bytes, m.gflop_per_s(),
+                                quoted(m.name + (m.group == "function" || m.group == "layer" ? "" : ": " + m.variant)));
+    return data +
+           fmt::format(
+               "EOD\nset title \"roofline\"\nset xlabel \"operations per byte\"\nset ylabel \"Gflop/s\"\n"
+               "set logscale xy\nroof(x) = x * {0:.6g} < {1:.6g} ? x * {0:.6g} : {1:.6g}\nset xrange [0.05:200]\n"
+               "plot roof(x) with lines lc rgb \"#c05020\" lw 2 title \"copy {0:.0f} GB/s, fma {1:.0f} Gflop/s\", "
+               "$all using 1:2 with points pt 7 ps 0.7 lc rgb \"#205080\" notitle, "
+               "$all using 1:2:3 with labels offset 0,0.7 font \",8\" noenhanced notitle\n",
+               run.ceilings.copy_gb_s, run.ceilings.fma_gflop_s);
+}
+
+std::string sizes(const std::vector<const Measurement*>& all) {
+    std::string data = "$all << EOD\n";
+    for (const Measurement* m : all)
+        data += fmt::format("{:.6g} {:.6g}\n", static_cast<double>(m->pixels) * 1e-6, m->ns_per_pixel());
+    return data +
+           "EOD\nset title \"time per pixel by size of the frame\"\nset xlabel \"Mpixel\"\nset ylabel \"ns per "
+           "pixel\"\n"
+           "set logscale x\nset yrange [0:*]\nplot $all using 1:2 with linespoints pt 7 lc rgb \"#205080\" notitle\n";
+}
+
+}  // namespace
+
+std::map<std::string, std::string> charts(const Run& run) {
+    std::map<std::string, std::vector<const Measurement*>> variants;
+    std::vector<const Measurement*> by_size;
+    for (const Measurement& m : run.measurements) {
+        if (m.seconds.median <= 0) continue;
+        if (m.group == "size") by_size.push_back(&m);
+        if (m.group == "function" || m.group == "scene" || m.group == "memory") variants[m.name].push_back(&m);
+    }
+    std::map<std::string, std::string> scripts{{"roofline", roofline(run)}};
+    if (by_size.size() > 1) scripts["sizes"] = sizes(by_size);
+    for (const auto& [name, all] : variants)
+        if (all.size() > 1) scripts["pareto-" + name] = pareto(name, all);
+
+    std::string pattern = (fs::temp_directory_path() / "wrinkle_charts.XXXXXX").string();
+    if (!::mkdtemp(pattern.data())) throw Error("cannot make a temporary folder for charts");
+    const fs::path folder = pattern;
+    std::string script;
+    std::size_t number = 0;
+    for (const auto& [name, text] : scripts)
+        script += fmt::format(
+            "reset\nset grid\nset terminal svg size 560,380 font \"sans-serif,11\" background \"#ffffff\"\n"
+            "set output \"{}/{}.svg\"\n{}",
+            folder.string(), number++, text);
+    std::ofstream(folder / "script") << script;
+    const int status = std::system(
+        fmt::format("gnuplot '{}' 2> '{}'", (folder / "script").string(), (folder / "messages").string()).c_str());
+    std::map<std::string, std::string> svgs;
+    number = 0;
+    for (const auto& [name, text] : scripts) {
+        std::ifstream in(folder / fmt::format("{}.svg", number++));
+        svgs[name] = {std::istreambuf_iterator<char>(in), {}};
+    }
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    if (status != 0) throw Error("the charts need gnuplot: install the package gnuplot-nox, or leave --report away");
+    return svgs;
+}
+
+}  // namespace wrinkle::bench

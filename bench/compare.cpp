@@ -1,0 +1,61 @@
+#include "compare.h"
+
+#include <fmt/format.h>
+
+namespace wrinkle::bench {
+
+namespace {
+
+/// Errors are deterministic on one device; compilers may round the last bit differently on another.
+constexpr double kErrorSlack = 1.25;
+
+/// Larger than rounding alone would make it.
+bool grew(const ErrorStats& before, const ErrorStats& now) {
+    const auto larger = [](double a, double b) { return b > kErrorSlack * a && b > 1e-12; };
+    return larger(before.p99, now.p99) || larger(before.max, now.max) || now.not_finite > before.not_finite;
+}
+
+/// Seconds in units of what the machine could have done meanwhile: of moving the bytes, or of the arithmetic.
+double relative_seconds(const Run& run, const Measurement& m) {
+    return m.operations > 10 * m.bytes ? m.seconds.median * run.ceilings.fma_gflop_s
+                                       : m.seconds.median * run.ceilings.copy_gb_s;
+}
+
+}  // namespace
+
+bool compare(const Run& before, const Run& now) {
+    std::map<std::string, const Measurement*> known;
+    for (const Measurement& m : before.measurements) known[m.key()] = &m;
+    std::size_t compared = 0, slower = 0, faster = 0, worse = 0;
+    fmt::print("\ncompared with {} ({})\n", before.processor, before.device);
+    for (const Measurement& m : now.measurements) {
+        const auto found = known.find(m.key());
+        if (found == known.end()) {
+            fmt::print("  new                {}\n", m.key());
+            continue;
+        }
+        const Measurement& old = *found->second;
+        known.erase(found);
+        ++compared;
+        bool less_accurate = grew(old.error, m.error);
+        for (const auto& [category, stats] : m.hard)
+            if (const auto was = old.hard.find(category); was != old.hard.end())
+                less_accurate |= grew(was->second, stats);
+        if (less_accurate) {
+            ++worse;
+            fmt::print("  LESS ACCURATE      {}: p99 {:.2g} -> {:.2g}, max {:.2g} -> {:.2g} {}\n", m.key(),
+                       old.error.p99, m.error.p99, old.error.max, m.error.max, m.unit);
+        }
+        if (m.seconds.median <= 0 || old.seconds.median <= 0) continue;
+        const double factor = relative_seconds(now, m) / relative_seconds(before, old);
+        const double spread = std::hypot(m.seconds.spread, old.seconds.spread) + 0.05;
+        if (factor > 1 + spread) ++slower, fmt::print("  slower             {}: {:.2f}x\n", m.key(), factor);
+        if (factor < 1 / (1 + spread)) ++faster, fmt::print("  faster             {}: {:.2f}x\n", m.key(), factor);
+    }
+    for (const auto& [key, m] : known) fmt::print("  not measured now   {}\n", key);
+    fmt::print("  {} compared: {} less accurate, {} slower, {} faster than the spreads explain\n", compared, worse,
+               slower, faster);
+    return worse == 0;
+}
+
+}  // namespace wrinkle::bench

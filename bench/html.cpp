@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include "report.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+    return out;
+}
+
+/// What gnuplot wrote, without what only a file of its own needs.
+std::string inner_svg(const std::string& svg) {
+    const std::size_t start = svg.find("<svg");
+    return start == std::string::npos ? std::string{} : svg.substr(start);
+}
+
+std::string row(const Run& run, const Measurement& m) {
+    std::string speed = "<td colspan=4>not timed</td>";
+    if (m.seconds.median > 0)
+        speed = fmt::format("<td>{:.2f}</td><td>{:.1f}%</td><td>{:.0f}%</td><td>{}</td>", m.ns_per_pixel(),
+                            100 * m.seconds.spread, 100 * m.gb_per_s() / run.ceilings.copy_gb_s,
+                            m.operations > 0 ? fmt::format("{:.0f}%", 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s)
+                                             : std::string("-"));
+    std::string hard;
+    for (const auto& [category, e] : m.hard)
+        hard += fmt::format("{}{}: {:.1e}, {:.1e}, {:.1e}{}", hard.empty() ? "" : "<br>", escaped(category), e.median,
+                            e.p99, e.max, e.not_finite > 0 ? fmt::format(", {} not finite", e.not_finite) : "");
+    return fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td>{}<td>{:.1e}</td><td>{:.1e}</td><td>{:.1e}</td><td>{}</td><td>{}</td>"
+        "<td class=hard>{}</td></tr>\n",
+        escaped(m.name), escaped(m.variant), m.lanes, speed, m.error.median, m.error.p99, m.error.max,
+        m.error.not_finite, m.unit, hard);
+}
+
+}  // namespace
+
+std::string html(const Run& run, const std::map<std::string, std::string>& charts) {
+    std::string text = fmt::format(
+        "<!doctype html>\n<html lang=en><meta charset=utf-8><title>wrinkle: speed beside error</title>\n<style>\n"
+        "body {{ font: 15px/1.4 sans-serif; margin: 2em; max-width: 1250px }}\n"
+        "table {{ border-collapse: collapse; font-size: 13px }}\n"
+        "td, th {{ padding: 2px 8px; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top }}\n"
+        "td:first-child, td:nth-child(2), td.hard {{ text-align: left }}\n.charts svg {{ margin: 4px }}\n"
+        "</style>\n<h1>wrinkle: speed beside error</h1>\n"
+        "<p>{}; {}.<br>wrinkle bench {}<br>{} repetitions, medians; spread is between the quartiles. Ceilings of this "
+        "run: copy {:.1f} GB/s, triad {:.1f} GB/s, fma {:.0f} Gflop/s.</p>\n<div class=charts>\n",
+        escaped(run.processor), escaped(run.device), escaped(run.command), run.repetitions, run.ceilings.copy_gb_s,
+        run.ceilings.triad_gb_s, run.ceilings.fma_gflop_s);
+    for (const auto& [name, svg] : charts) text += inner_svg(svg);
+    text += "</div>\n";
+    std::string group;
+    for (const Measurement& m : run.measurements) {
+        if (m.group != group) {
+            if (!group.empty()) text += "</table>\n";
+            group = m.group;
+            text += fmt::format(
+                "<h2>{}</h2>\n<table><tr><th>name<th>variant<th>lanes<th>ns/pixel<th>spread<th>of copy<th>of fma"
+                "<th>median error<th>p99<th>max<th>not finite<th>unit<th>hard inputs: median, p99, max</tr>\n",
+                escaped(group));
+        }
+        text += row(run, m);
+    }
+    return text + (group.empty() ? "" : "</table>\n") + "</html>\n";
+}
+
+}  // namespace wrinkle::bench

@@ -1,0 +1,104 @@
+#include "record.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+using nlohmann::json;
+
+json stats_json(const ErrorStats& e) {
+    return {{"median", e.median}, {"p99", e.p99}, {"max", e.max}, {"samples", e.samples}, {"not_finite", e.not_finite}};
+}
+
+ErrorStats stats_of(const json& j) {
+    return {j.at("median"), j.at("p99"), j.at("max"), j.at("samples"), j.at("not_finite")};
+}
+
+json measurement_json(const Measurement& m) {
+    json hard = json::object();
+    for (const auto& [category, stats] : m.hard) hard[category] = stats_json(stats);
+    return {{"group", m.group},
+            {"name", m.name},
+            {"variant", m.variant},
+            {"lanes", m.lanes},
+            {"pixels", m.pixels},
+            {"seconds", m.seconds.median},
+            {"spread", m.seconds.spread},
+            {"ns_per_pixel", m.ns_per_pixel()},
+            {"bytes_per_pixel", m.bytes},
+            {"operations_per_pixel", m.operations},
+            {"error_unit", m.unit},
+            {"error", stats_json(m.error)},
+            {"error_hard", hard},
+            {"documented_error", m.bound},
+            {"hash", m.hash}};
+}
+
+Measurement measurement_of(const json& j) {
+    Measurement m;
+    m.group = j.at("group"), m.name = j.at("name"), m.variant = j.at("variant"), m.lanes = j.at("lanes");
+    m.pixels = j.at("pixels"), m.seconds = {j.at("seconds"), j.at("spread")};
+    m.bytes = j.at("bytes_per_pixel"), m.operations = j.at("operations_per_pixel"), m.unit = j.at("error_unit");
+    m.error = stats_of(j.at("error"));
+    for (const auto& [category, stats] : j.at("error_hard").items()) m.hard[category] = stats_of(stats);
+    m.bound = j.at("documented_error"), m.hash = j.at("hash");
+    return m;
+}
+
+}  // namespace
+
+std::string Measurement::key() const { return fmt::format("{}/{}/{}/{}/{}", group, name, variant, lanes, pixels); }
+
+json to_json(const Run& run) {
+    json list = json::array();
+    for (const Measurement& m : run.measurements) list.push_back(measurement_json(m));
+    return {{"wrinkle_bench", 1},
+            {"processor", run.processor},
+            {"device", run.device},
+            {"command", run.command},
+            {"repetitions", run.repetitions},
+            {"ceilings",
+             {{"copy_gb_per_s", run.ceilings.copy_gb_s},
+              {"triad_gb_per_s", run.ceilings.triad_gb_s},
+              {"fma_gflop_per_s", run.ceilings.fma_gflop_s}}},
+            {"measurements", list}};
+}
+
+Run read_run(const std::string& file) {
+    std::ifstream in(file);
+    if (!in) throw Error(fmt::format("cannot read {}", file));
+    try {
+        const json j = json::parse(in);
+        if (j.at("wrinkle_bench") != 1)
+            throw Error(fmt::format("{}: written by another version of wrinkle bench", file));
+        Run run{j.at("processor"), j.at("device"), j.at("command"), j.at("repetitions"), {}, {}};
+        const json& c = j.at("ceilings");
+        run.ceilings = {c.at("copy_gb_per_s"), c.at("triad_gb_per_s"), c.at("fma_gflop_per_s")};
+        for (const json& m : j.at("measurements")) run.measurements.push_back(measurement_of(m));
+        return run;
+    } catch (const json::exception&) {
+        throw Error(fmt::format("{} is no report of wrinkle bench; write one with --json or --report", file));
+    }
+}
+
+std::string hash_of(const void* data, std::size_t bytes) {
+    std::uint64_t h = 0xcbf29ce484222325u;
+    const auto* p = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < bytes; ++i) h = (h ^ p[i]) * 0x100000001b3u;
+    return fmt::format("{:016x}", h);
+}
+
+std::string processor_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+}  // namespace wrinkle::bench

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "error_stats.h"
+#include "measure.h"
+
+namespace wrinkle::bench {
+
+/// One thing measured: how fast, how wrong. A speed is never recorded without its error.
+struct Measurement {
+    std::string group;    ///< "function", "scene", "layer", "memory", "volume", "decals", "start"
+    std::string name;     ///< "tangent_frame"
+    std::string variant;  ///< "standard", "fused", "plain C++"
+    int lanes = 0;        ///< pixels a work-item; 0: not a kernel
+    std::size_t pixels = 0;
+    Timing seconds{};                          ///< of the whole of `pixels`
+    double bytes = 0;                          ///< moved per pixel, each plane once
+    double operations = 0;                     ///< floating-point operations per pixel; 0: not counted
+    std::string unit = "degrees";              ///< of the errors
+    ErrorStats error{};                        ///< on regular inputs
+    std::map<std::string, ErrorStats> hard{};  ///< by category
+    std::string hash{};                        ///< of the results' bits
+    double bound = 0;                          ///< documented error; 0: none
+
+    double ns_per_pixel() const { return seconds.median / static_cast<double>(pixels) * 1e9; }
+    double gb_per_s() const { return bytes * static_cast<double>(pixels) / seconds.median * 1e-9; }
+    double gflop_per_s() const { return operations * static_cast<double>(pixels) / seconds.median * 1e-9; }
+    /// What tells measurements of two runs apart.
+    std::string key() const;
+};
+
+/// What nothing on this machine can beat, measured in the same run.
+struct Ceilings {
+    double copy_gb_s = 0, triad_gb_s = 0, fma_gflop_s = 0;
+};
+
+struct Run {
+    std::string processor, device, command;
+    int repetitions = 0;
+    Ceilings ceilings;
+    std::vector<Measurement> measurements;
+};
+
+nlohmann::json to_json(const Run& run);
+/// Throws Error when the file is no run of this program.
+Run read_run(const std::string& file);
+
+/// FNV-1a of the bits of numbers, as 16 hex digits.
+std::string hash_of(const void* data, std::size_t bytes);
+
+/// The processor's name as the system gives it.
+std::string processor_name();
+
+}  // namespace wrinkle::bench

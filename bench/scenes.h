@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "record.h"
+#include "wrinkle/camera.h"
+#include "wrinkle/device.h"
+
+namespace wrinkle::bench {
+
+/// A scene by each contender: fused, one kernel a layer, plain C++ where that knows every layer; and, for `layers`,
+/// each layer alone above the empty scene. Adds builds (cold, from the cache) as group "start".
+void measure_scene(const Device& device, const std::filesystem::path& file, Size size, bool layers, Run& run);
+
+/// The fused scene at each size, in bands, so that memory does not grow with the frame.
+void measure_sizes(const Device& device, const std::filesystem::path& file, const std::vector<Size>& sizes, Run& run);
+
+}  // namespace wrinkle::bench

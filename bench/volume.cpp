@@ -1,0 +1,195 @@
+#include "volume.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <random>
+
+#include "baseline/volume.h"
+#include "device/program.h"
+#include "run/plane_buffers.h"
+#include "run/volume_heap.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+constexpr std::size_t kPixels = std::size_t{1} << 20;  // of a walk
+constexpr std::size_t kRow = 1024;
+
+/// A smooth field; every voxel differs from its neighbours.
+float voxel(int x, int y, int z) {
+    return static_cast<float>(std::sin(0.31 * x + 0.11 * y) + std::sin(0.27 * y - 0.13 * z) +
+                              std::sin(0.23 * z + 0.17 * x));
+}
+
+/// The field as blocks.
+Volume blocks_of(int size) {
+    Volume volume;
+    const int edge = Volume::edge, count = size / edge;
+    volume.info.grid = "field";
+    volume.count = {count, count, count};
+    for (int z = 0; z < count; ++z)
+        for (int y = 0; y < count; ++y)
+            for (int x = 0; x < count; ++x) {
+                volume.blocks.push_back(static_cast<std::int32_t>(volume.blocks.size()));
+                for (int k = 0; k < edge; ++k)
+                    for (int j = 0; j < edge; ++j)
+                        for (int i = 0; i < edge; ++i)
+                            volume.voxels.push_back(voxel(x * edge + i, y * edge + j, z * edge + k));
+            }
+    return volume;
+}
+
+using Points = std::array<std::vector<float>, 3>;
+
+/// Forth and back between the faces of the grid.
+float within(double v, int size) {
+    const double span = size - 4, period = 2 * span;
+    double at = std::fmod(v, period);
+    if (at < 0) at += period;
+    return static_cast<float>(1.5 + (at < span ? at : period - at));
+}
+
+Points plane_walk(double voxels_per_pixel, int size) {
+    const double right[] = {0.81, 0.43, 0.4}, down[] = {-0.42, 0.9, -0.12};  // about unit
+    Points points;
+    for (std::size_t i = 0; i < kPixels; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            points[axis].push_back(within(0.3 * size + voxels_per_pixel * (right[axis] * static_cast<double>(i % kRow) +
+                                                                           down[axis] * static_cast<double>(i / kRow)),
+                                          size));
+    return points;
+}
+
+Points random_walk(int size) {
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<float> uniform(1.5f, static_cast<float>(size) - 2.5f);
+    Points points;
+    for (auto& axis : points)
+        for (std::size_t i = 0; i < kPixels; ++i) axis.push_back(uniform(engine));
+    return points;
+}
+
+/// The trilinear gradient in double.
+std::array<double, 3> exact(const Points& points, std::size_t i) {
+    int cell[3];
+    double t[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        cell[k] = static_cast<int>(std::floor(points[k][i])), t[k] = points[k][i] - cell[k];
+    std::array<double, 3> g{};
+    for (int corner = 0; corner < 8; ++corner) {
+        const int at[] = {corner & 1, corner >> 1 & 1, corner >> 2};
+        const double v = voxel(cell[0] + at[0], cell[1] + at[1], cell[2] + at[2]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            double weight = 1;
+            for (std::size_t k = 0; k < 3; ++k) weight *= k == axis ? (at[k] ? 1.0 : -1.0) : (at[k] ? t[k] : 1 - t[k]);
+            g[axis] += weight * v;
+        }
+    }
+    return g;
+}
+
+void set_errors(VolumeRow& row, const Points& points, const float* const (&gradient)[3]) {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < kPixels; i += 7) {
+        const std::array<double, 3> want = exact(points, i);
+        const double d[] = {gradient[0][i] - want[0], gradient[1][i] - want[1], gradient[2][i] - want[2]};
+        errors.push_back(std::hypot(d[0], d[1], d[2]) / std::hypot(want[0], want[1], want[2]));
+    }
+    std::ranges::sort(errors);
+    row.median = errors[errors.size() / 2], row.p99 = errors[errors.size() * 99 / 100], row.max = errors.back();
+}
+
+std::string kernel_text() {
+    std::ifstream in(WRINKLE_SOURCE_DIR "/bench/kernels/volume.cl");
+    if (!in) throw Error("cannot read bench/kernels/volume.cl");
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+template <class T>
+cl::Buffer buffer(const Device& device, std::vector<T>& values) {
+    return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data()};
+}
+
+/// A kernel on the device's lanes with its volume.
+struct Sampler {
+    std::string name;
+    cl::Kernel kernel;
+    cl::Buffer texels, table;
+
+    Sampler(const Device& device, const BuiltProgram& built, const Volume& volume, bool smooth)
+        : name(smooth ? "wrinkle, quadratic B-spline" : "wrinkle, trilinear"),
+          kernel(built.program, smooth ? "wr_smooth_samples" : "wr_linear_samples") {
+        TextureHeap heap;
+        add_volume(heap, volume, smooth ? TexelKind::volume_smooth : TexelKind::volume);
+        heap.texels.resize(heap.texels.size() + 4);
+        texels = buffer(device, heap.texels), table = buffer(device, heap.table);
+    }
+};
+
+}  // namespace
+
+std::vector<VolumeRow> measure_volumes(const Device& device, int size, int repetitions) {
+    const baseline::NanoVolume nano(size, voxel);
+    const Volume volume = blocks_of(size);
+    const BuiltProgram built = build_program(device, kernel_text(), {device.info.lanes, false});
+    std::vector<Sampler> samplers{{device, built, volume, false}, {device, built, volume, true}};
+    const std::vector<std::string> inputs{"x", "y", "z"}, outputs{"value", "gx", "gy", "gz"};
+    PlaneBuffers in(device, inputs, kPixels, sizeof(float)), out(device, outputs, kPixels, sizeof(float));
+    std::vector<VolumeRow> rows;
+    const struct {
+        const char* name;
+        Points points;
+    } walks[] = {{"coherent, 0.2 voxels a pixel", plane_walk(0.2, size)},
+                 {"sparse, 1.4 voxels a pixel", plane_walk(1.4, size)},
+                 {"random points", random_walk(size)}};
+    for (const auto& walk : walks) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            std::ranges::copy(walk.points[axis], in.map<float>(inputs[axis], CL_MAP_WRITE));
+        in.unmap();
+        std::array<std::vector<float>, 4> host;
+        for (auto& plane : host) plane.resize(kPixels);
+        std::span<const float> points[] = {walk.points[0], walk.points[1], walk.points[2]};
+        std::span<float> gradients[] = {host[1], host[2], host[3]};
+        std::vector<Contender> contenders{
+            {"NanoVDB C++, cached gradient", [&] { nano.gradients(points, gradients); }},
+            {"NanoVDB C++, value and cached gradient", [&] { nano.values_and_gradients(points, host[0], gradients); }}};
+        const auto run = [&](Sampler& sampler) {
+            cl_uint i = 0;
+            for (const cl::Buffer* b : {&sampler.texels, &sampler.table}) sampler.kernel.setArg(i++, *b);
+            for (const std::string& name : inputs) sampler.kernel.setArg(i++, in.planes().at(name));
+            for (const std::string& name : outputs) sampler.kernel.setArg(i++, out.planes().at(name));
+            device.queue.enqueueNDRangeKernel(sampler.kernel, cl::NullRange,
+                                              cl::NDRange(kPixels / static_cast<std::size_t>(device.info.lanes)),
+                                              cl::NDRange(64));
+            device.queue.finish();
+        };
+        for (Sampler& sampler : samplers) contenders.push_back({sampler.name, [&] { run(sampler); }});
+        std::vector<std::vector<double>> times;
+        race(contenders, repetitions, &times);
+        for (std::size_t i = 0; i < contenders.size(); ++i) {
+            VolumeRow row{walk.name, contenders[i].name, contenders[i].seconds};
+            row.ns = row.seconds.median / kPixels * 1e9;
+            row.best_ns = *std::ranges::min_element(times[i]) / kPixels * 1e9;
+            std::vector<double> ratios;
+            for (std::size_t r = 0; r < times[i].size(); ++r) ratios.push_back(times[i][r] / times[0][r]);
+            row.ratio = timing(ratios).median;
+            if (i < 2) {
+                contenders[i].work();
+                set_errors(row, walk.points, {host[1].data(), host[2].data(), host[3].data()});
+            } else if (i == 2) {
+                contenders[i].work();
+                const float* planes[] = {out.map<float>("gx", CL_MAP_READ), out.map<float>("gy", CL_MAP_READ),
+                                         out.map<float>("gz", CL_MAP_READ)};
+                set_errors(row, walk.points, planes);
+                out.unmap();
+            }
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
+
+}  // namespace wrinkle::bench

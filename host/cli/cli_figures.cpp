@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "run/draw_figure.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::cli {
+
+namespace {
+
+struct FigureArguments {
+    std::vector<std::filesystem::path> files;
+    std::filesystem::path directory = "out";
+    std::string device;
+};
+
+void figures(const FigureArguments& arguments) {
+    std::vector<Figure> figures;
+    for (const std::filesystem::path& file : arguments.files) figures.push_back(load_figure(file));
+    std::error_code failed;
+    std::filesystem::create_directories(arguments.directory, failed);
+    if (failed)
+        throw Error(
+            fmt::format("cannot make the output folder {}: {}", arguments.directory.string(), failed.message()));
+    const Device device = Device::open(arguments.device);
+    for (const Figure& figure : figures) {
+        const std::filesystem::path picture = arguments.directory / figure.scene.file.stem() += ".png";
+        draw_figure(device, figure, picture);
+        fmt::print("wrote {}\n", picture.string());
+    }
+}
+
+}  // namespace
+
+void add_figures(CLI::App& app) {
+    auto arguments = std::make_shared<FigureArguments>();
+    CLI::App* command =
+        app.add_subcommand("figures", "Draw figures: a scene several times side by side, each with some of its layers");
+    command->add_option("FIGURE", arguments->files, "figure files (TOML), each becomes DIR/NAME.png")->required();
+    command->add_option("-o,--output", arguments->directory, "folder for the pictures, made if missing")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command
+        ->add_option("--device", arguments->device,
+                     "number, type (cpu, gpu) or part of a name; see \"wrinkle devices\"")
+        ->type_name("DEVICE");
+    command->callback([arguments] { figures(*arguments); });
+}
+
+}  // namespace wrinkle::cli

@@ -1,0 +1,187 @@
+#include "functions/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "functions/tables.h"
+
+namespace wrinkle {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& parts, const char* between = ", ") {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+    return text;
+}
+
+/// "1e-6"
+std::string digits(double value) {
+    std::string text = fmt::format("{:g}", value);
+    const std::size_t zero = text.find("e-0");
+    if (zero != std::string::npos) text.erase(zero + 2, 1);
+    return text;
+}
+
+const char* unit_of(ErrorMeasure measure) {
+    const char* const units[] = {"degrees", "relative", "absolute", "degrees once resolved"};
+    return units[static_cast<int>(measure)];
+}
+
+/// "dp_dx, dp_dy 1e-6 relative, 1e-5 degrees": results with the same errors together.
+std::string errors_of(const Function& function, const FunctionVariant& variant) {
+    std::vector<std::pair<std::string, std::string>> groups;
+    std::size_t at = 0;
+    for (const Result& result : function.results) {
+        std::vector<std::string> errors;
+        for (const ErrorMeasure measure : result.measures) {
+            const double error = variant.max_errors.at(at++);
+            errors.push_back(error == 0 ? "exact" : fmt::format("{} {}", digits(error), unit_of(measure)));
+        }
+        if (!groups.empty() && groups.back().second == joined(errors))
+            groups.back().first += ", " + result.name;
+        else
+            groups.emplace_back(result.name, joined(errors));
+    }
+    std::vector<std::string> parts;
+    for (const auto& [names, errors] : groups)
+        parts.push_back(function.results.size() == 1 ? errors : fmt::format("{}: {}", names, errors));
+    return joined(parts, "; ") + (variant.everywhere ? ", everywhere" : "");
+}
+
+std::string standard_of(const Setting& setting) {
+    std::vector<std::string> numbers;
+    for (const double number : setting.standard) numbers.push_back(digits(number));
+    return numbers.empty() ? "required" : "default " + joined(numbers, ",");
+}
+
+/// For a cell of a table.
+std::string escaped(std::string text) {
+    for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+        text.insert(at, 1, '\\');
+    return text;
+}
+
+/// Calls `visit` with every concept file and its functions, in the order of the table.
+template <class Visit>
+void by_file(Visit visit) {
+    std::vector<std::string> files;
+    for (const Function& function : functions())
+        if (std::ranges::find(files, function.file) == files.end()) files.push_back(function.file);
+    for (const std::string& file : files) {
+        std::vector<const Function*> here;
+        for (const Function& function : functions())
+            if (function.file == file) here.push_back(&function);
+        visit(file, here);
+    }
+}
+
+std::string line(const std::string& left, const std::string& right) {
+    return fmt::format("  {:<26} {}\n", left, right);
+}
+
+}  // namespace
+
+std::string function_list() {
+    std::string text;
+    by_file([&](const std::string& file, const std::vector<const Function*>& here) {
+        text += fmt::format("{}kernels/{}\n", text.empty() ? "" : "\n", file);
+        for (const Function* function : here) {
+            text += fmt::format("  {}\n      {}\n", function->name, function->summary);
+            for (const FunctionVariant& variant : function->variants)
+                text +=
+                    fmt::format("      {:<9} {}\n", precision_name(variant.precision), errors_of(*function, variant));
+        }
+    });
+    return text;
+}
+
+std::string function_example(const Function& function) {
+    std::vector<std::string> columns, cells;
+    for (const Parameter& parameter : function.parameters) {
+        const bool normal = parameter.unit_length || parameter.name == "n";
+        const char* const values[] = {normal ? "0" : "0.25", normal ? "0" : "0.5", normal ? "1" : "0.75"};
+        std::size_t k = 0;
+        for (std::string& column : parameter.columns())
+            columns.push_back(std::move(column)), cells.push_back(values[k++]);
+    }
+    std::string settings;
+    for (const Setting& setting : function.settings) {
+        if (!setting.standard.empty()) continue;
+        const char* value = "image.png";
+        if (setting.kind == Setting::Kind::camera) value = "shot.camera.json";
+        if (setting.kind == Setting::Kind::number) value = "1";
+        if (setting.kind == Setting::Kind::vector) value = "0,0,1";
+        if (setting.kind == Setting::Kind::projector) value = "0,0,0,1,0,0,0,1,0,1,1,1";
+        if (setting.kind == Setting::Kind::lattice) value = "1,2";
+        settings += fmt::format(" --set {}={}", setting.name, value);
+    }
+    return fmt::format("printf '{}\\n{}\\n' | wrinkle eval {}{}", joined(columns, ","), joined(cells, ","),
+                       function.name, settings);
+}
+
+std::string function_help(const Function& function) {
+    std::vector<std::string> parameters, results;
+    for (const Parameter& parameter : function.parameters) parameters.push_back(parameter.name);
+    for (const Result& result : function.results) results.push_back(result.name);
+    std::string text = fmt::format("{}({}) -> {}\n  {}.\n  {}. In kernels/{}\n", function.name, joined(parameters),
+                                   joined(results), function.summary, function.source, function.file);
+    const auto describe = [&](const Parameter& parameter) {
+        text += line(joined(parameter.columns()), fmt::format("{}; {}", parameter.meaning, parameter.unit));
+    };
+    text += "\ncolumns in\n";
+    for (const Parameter& parameter : function.parameters) describe(parameter);
+    text += "columns out\n";
+    for (const Result& result : function.results) describe(result);
+    if (!function.settings.empty()) text += "settings, --set NAME=VALUE\n";
+    for (const Setting& setting : function.settings)
+        text += line(setting.name,
+                     fmt::format("{}; {}; {}", setting.meaning, wanted_text(setting.kind), standard_of(setting)));
+    text += "largest error, --precision\n";
+    for (const FunctionVariant& variant : function.variants)
+        text += line(precision_name(variant.precision), errors_of(function, variant));
+    text += line("double", fmt::format("{} by any measure", digits(function.fp64_error)));
+    if (!function.note.empty()) text += "note\n  " + function.note + "\n";
+    return text + "example\n  " + function_example(function) + "\n";
+}
+
+std::string reference_page() {
+    std::string text =
+        "# Kernel functions\n\n"
+        "Written by `wrinkle eval --reference`; do not edit. Each function can be asked by itself: `wrinkle eval NAME\n"
+        "--help`. Errors are the largest that the tests allow, on regular and hard inputs alike, in float; with\n"
+        "`--precision double` they are 1e-9 or as noted. World space is right-handed, positions are relative to the "
+        "eye,\n"
+        "images have x to the right and y down.\n";
+    by_file([&](const std::string& file, const std::vector<const Function*>& here) {
+        text += fmt::format(
+            "\n## [{0}]({0})\n\n| function | what | takes | gives | largest error | source |\n"
+            "|---|---|---|---|---|---|\n",
+            file);
+        for (const Function* function : here) {
+            std::vector<std::string> takes, gives, errors;
+            for (const Parameter& parameter : function->parameters)
+                takes.push_back(
+                    fmt::format("`{}` {}; {}", joined(parameter.columns()), parameter.meaning, parameter.unit));
+            for (const Setting& setting : function->settings)
+                takes.push_back(fmt::format("setting `{}` {}; {}; {}", setting.name, setting.meaning,
+                                            wanted_text(setting.kind), standard_of(setting)));
+            for (const Result& result : function->results)
+                gives.push_back(fmt::format("`{}` {}; {}", joined(result.columns()), result.meaning, result.unit));
+            for (const FunctionVariant& variant : function->variants)
+                errors.push_back(
+                    fmt::format("{} {}", precision_name(variant.precision), errors_of(*function, variant)));
+            if (function->fp64_error != Function{}.fp64_error)
+                errors.push_back(fmt::format("double {}", digits(function->fp64_error)));
+            if (!function->note.empty()) errors.push_back(function->note);
+            const std::string cells[] = {'`' + function->name + '`', function->summary,      joined(takes, "<br>"),
+                                         joined(gives, "<br>"),      joined(errors, "<br>"), function->source};
+            for (const std::string& cell : cells) text += "| " + escaped(cell) + " ";
+            text += "|\n";
+        }
+    });
+    return text;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,184 @@
+#include "io/csv_table.h"
+
+#include <csv.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle::io {
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// Short and on one line, whatever the cell held.
+std::string shown(std::string_view cell) {
+    std::string out;
+    for (const char c : cell.substr(0, 40)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+    return out + (cell.size() > 40 ? "..." : "");
+}
+
+/// False where `text` is no number, or one that T is too small for.
+template <class T>
+bool parse(std::string_view text, T& value) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (stop != end || text.empty()) return false;
+    if (error != std::errc::result_out_of_range) return error == std::errc();
+    const std::string copy(text);  // from_chars says "out of range" for the smallest numbers too
+    if constexpr (std::is_same_v<T, float>)
+        value = std::strtof(copy.c_str(), nullptr);
+    else
+        value = std::strtod(copy.c_str(), nullptr);
+    return std::isfinite(value);
+}
+
+}  // namespace
+
+/// Takes what libcsv finds. Its callbacks come through C: they keep what is wrong instead of throwing.
+struct CsvTable::Parser {
+    CsvTable& table;
+    std::string problem{};
+    std::size_t cells = 0;                    ///< of this row
+    std::uint32_t line = 1, inner_lines = 0;  ///< where the row begins; line ends within its cells
+    int last_end = 0;                         ///< the line end just read, of '\r' '\n'
+    bool header = true;
+
+    static void cell(void* data, std::size_t size, void* self) {
+        static_cast<Parser*>(self)->add_cell({static_cast<const char*>(data), size});
+    }
+    static void row(int end, void* self) { static_cast<Parser*>(self)->end_row(end); }
+
+    void add_cell(std::string_view cell) {
+        last_end = 0;
+        ++cells;
+        if (header) {
+            table.names_.emplace_back(cell);
+        } else {
+            table.text_ += cell;
+            table.ends_.push_back(table.text_.size());
+        }
+        inner_lines += static_cast<std::uint32_t>(std::ranges::count(cell, '\n'));
+    }
+
+    void end_row(int end) {
+        if (last_end == '\r' && end == '\n') {
+            last_end = 0;
+            return;
+        }
+        if (cells > 0) {
+            if (!header) table.lines_.push_back(line);
+            if (!header && cells != table.names_.size() && problem.empty())
+                problem = fmt::format("{}:{}: row {} has {} cell{}, the header {} column{}", table.name_, line,
+                                      table.lines_.size(), cells, cells == 1 ? "" : "s", table.names_.size(),
+                                      table.names_.size() == 1 ? "" : "s");
+            header = false;
+        }
+        line += inner_lines + 1;
+        cells = inner_lines = 0, last_end = end;
+    }
+};
+
+CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (text.find('\0') != std::string_view::npos)
+        throw Error(fmt::format("{}: no CSV in ASCII or UTF-8: it holds zero bytes", name_));
+    text_.reserve(text.size());
+    csv_parser parser;
+    csv_init(&parser, CSV_REPALL_NL | CSV_STRICT | CSV_STRICT_FINI);
+    Parser state{*this};
+    const bool parsed = csv_parse(&parser, text.data(), text.size(), Parser::cell, Parser::row, &state) == text.size();
+    const bool closed = parsed && csv_fini(&parser, Parser::cell, Parser::row, &state) == 0;
+    const int error = csv_error(&parser);
+    csv_free(&parser);
+    if (error == CSV_ENOMEM) throw std::bad_alloc();
+    if (!parsed)
+        throw Error(fmt::format("{}:{}: a quote within a cell; quote the cell and double it", name_, state.line));
+    if (!closed) throw Error(fmt::format("{}:{}: a quote is not closed", name_, state.line));
+    if (!state.problem.empty()) throw Error(state.problem);
+    if (names_.empty()) throw Error(fmt::format("{} is empty; its first row must name the columns", name_));
+}
+
+std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
+    const std::size_t at = row * names_.size() + column, begin = at == 0 ? 0 : ends_[at - 1];
+    return std::string_view(text_).substr(begin, ends_[at] - begin);
+}
+
+template <class T>
+std::vector<T> CsvTable::numbers(const std::string& name) const {
+    const auto found = std::ranges::find(names_, name);
+    if (found == names_.end()) throw Error(fmt::format("{} has no column \"{}\"", name_, name));
+    if (std::find(found + 1, names_.end(), name) != names_.end())
+        throw Error(fmt::format("{} has two columns \"{}\"", name_, name));
+    const auto column = static_cast<std::size_t>(found - names_.begin());
+    std::vector<T> out(rows());
+    for (std::size_t row = 0; row < rows(); ++row) {
+        const std::string_view text = cell(row, column);
+        if (parse(text, out[row])) continue;
+        const std::string where = fmt::format("{}:{}: row {}, column \"{}\"", name_, lines_[row], row + 1, name);
+        if (text.empty()) throw Error(where + " is empty");
+        double as_double = 0;
+        throw Error(
+            fmt::format("{}: \"{}\" is {}", where, shown(text),
+                        parse(text, as_double) ? "too large for a float; use --precision double" : "no number"));
+    }
+    return out;
+}
+
+template std::vector<float> CsvTable::numbers(const std::string&) const;
+template std::vector<double> CsvTable::numbers(const std::string&) const;
+
+std::string read_text(const std::filesystem::path& file) {
+    const bool standard = file == "-";
+    const std::string name = standard ? "standard input" : file.string();
+    std::error_code code;
+    if (!standard && !std::filesystem::exists(file, code)) throw Error(fmt::format("{}: no such file", name));
+    const int descriptor = standard ? STDIN_FILENO : ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    std::string text;
+    std::vector<char> block(std::size_t{1} << 20);
+    ssize_t size = descriptor < 0 ? -1 : 1;
+    while (size > 0) {
+        size = ::read(descriptor, block.data(), block.size());
+        if (size < 0 && errno == EINTR)
+            size = 1;
+        else if (size > 0)
+            text.append(block.data(), static_cast<std::size_t>(size));
+    }
+    const int reason = errno;
+    if (!standard && descriptor >= 0) ::close(descriptor);
+    if (size < 0) throw Error(fmt::format("{}: cannot be read: {}", name, std::strerror(reason)));
+    return text;
+}
+
+void append_csv_cell(std::string& to, std::string_view cell) {
+    const bool blank_edge =
+        !cell.empty() && (cell.front() == ' ' || cell.back() == ' ' || cell.front() == '\t' || cell.back() == '\t');
+    if (!blank_edge && cell.find_first_of(",\"\r\n") == std::string_view::npos) {
+        to += cell;
+        return;
+    }
+    const std::size_t before = to.size();
+    to.resize(before + csv_write(nullptr, 0, cell.data(), cell.size()));
+    csv_write(to.data() + before, to.size() - before, cell.data(), cell.size());
+}
+
+template <class T>
+void append_number(std::string& to, T value) {
+    std::array<char, 32> digits;
+    to.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+template void append_number(std::string&, float);
+template void append_number(std::string&, double);
+
+}  // namespace wrinkle::io

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wrinkle::io {
+
+/// The cells of a CSV file as text (RFC 4180; any line ends, a byte order mark, quoted cells, blanks around cells).
+/// The first row names the columns. Lines without a cell are skipped.
+class CsvTable {
+public:
+    /// Throws Error when the text is empty, a row has more or fewer cells than the header, or a quote stays open.
+    /// `name` is for messages.
+    CsvTable(std::string_view text, std::string name);
+
+    const std::vector<std::string>& names() const { return names_; }
+    std::size_t rows() const { return lines_.size(); }
+    std::string_view cell(std::size_t row, std::size_t column) const;
+
+    /// The numbers of the column `name`, each rounded once. T is float or double. Throws Error naming row, line and
+    /// column of a cell that holds no number, or when there is no such column or two of it.
+    template <class T>
+    std::vector<T> numbers(const std::string& name) const;
+
+private:
+    struct Parser;
+
+    std::string name_, text_;  ///< all cells, one after another
+    std::vector<std::string> names_;
+    std::vector<std::size_t> ends_;     ///< in text_, of each cell
+    std::vector<std::uint32_t> lines_;  ///< of each row
+};
+
+/// All of a file, or of standard input for "-". Throws Error.
+std::string read_text(const std::filesystem::path& file);
+
+/// Appends a cell, quoted where it must be.
+void append_csv_cell(std::string& to, std::string_view cell);
+
+/// Appends the shortest text that reads back as the same number. T is float or double.
+template <class T>
+void append_number(std::string& to, T value);
+
+}  // namespace wrinkle::io

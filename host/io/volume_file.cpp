@@ -1,0 +1,201 @@
+#include "io/volume_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <new>
+
+#include "io/volume_grid.h"
+#include "scene/problems.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+namespace fs = std::filesystem;
+using io::ListedGrid, io::RawVolume;
+
+constexpr std::uint64_t kVdbMagic = 0x56444220, kNvdbMagic = 0x304244566f6e614eull;  // " BDV", "NanoVDB0"
+constexpr double kMostBlocks = 1 << 28;                                              // their index then takes 1 GiB
+
+std::string list(const std::vector<ListedGrid>& grids) {
+    std::string text;
+    for (const ListedGrid& grid : grids)
+        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", scene::quote(grid.name), grid.type);
+    return text.empty() ? "none" : text;
+}
+
+/// Number of the grid `wanted`, or of the only usable one.
+std::size_t choose(const fs::path& file, const std::vector<ListedGrid>& grids, const std::string& wanted) {
+    std::vector<std::size_t> fitting;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        names.push_back(grids[i].name);
+        if (wanted.empty() ? grids[i].usable : grids[i].name == wanted) fitting.push_back(i);
+    }
+    if (!wanted.empty() && fitting.empty())
+        throw Error(fmt::format("{}: there is no grid {}{}; grids: {}", file.string(), scene::quote(wanted),
+                                scene::did_you_mean(wanted, names), list(grids)));
+    if (fitting.empty())
+        throw Error(fmt::format("{}: holds no grid of float, double or 3-vectors of them; grids: {}", file.string(),
+                                list(grids)));
+    if (wanted.empty() && fitting.size() > 1)
+        throw Error(
+            fmt::format("{}: holds several grids, name one with the key \"grid\": {}", file.string(), list(grids)));
+    const ListedGrid& grid = grids[fitting.front()];
+    if (!grid.usable)
+        throw Error(fmt::format("{}: the grid {} holds {}; float, double or 3-vectors of them are expected; grids: {}",
+                                file.string(), scene::quote(grid.name), grid.type, list(grids)));
+    return fitting.front();
+}
+
+/// True for NanoVDB; throws unless the file starts as one of the two formats in a version that is known.
+bool is_nano(const fs::path& file) {
+    std::error_code error;
+    if (fs::is_directory(file, error))
+        throw Error(fmt::format("{}: is a folder; a volume file was expected", file.string()));
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw Error(fmt::format("{}: cannot be opened; is it there, and may it be read?", file.string()));
+    std::uint64_t magic = 0;
+    std::uint32_t version = 0;
+    in.read(reinterpret_cast<char*>(&magic), sizeof magic);
+    in.read(reinterpret_cast<char*>(&version), sizeof version);
+    const bool nano = magic == kNvdbMagic;
+    if (!in || (!nano && magic != kVdbMagic))
+        throw Error(fmt::format("{}: is neither an OpenVDB (.vdb) nor a NanoVDB (.nvdb) file", file.string()));
+    if (!nano && version > io::newest_vdb())
+        throw Error(
+            fmt::format("{}: has OpenVDB file version {}; versions up to {} can be read: save it with an older "
+                        "OpenVDB",
+                        file.string(), version, io::newest_vdb()));
+    if (nano && version >> 21 != io::nvdb_version())
+        throw Error(fmt::format("{}: has NanoVDB version {}; version {} can be read: convert it, or save a .vdb",
+                                file.string(), version >> 21, io::nvdb_version()));
+    return nano;
+}
+
+/// A library's text without the name of its exception: "IoError: no space" says "no space".
+std::string reason(const std::string& text) {
+    const std::size_t colon = text.find(": ");
+    const bool named = colon != std::string::npos && text.find(' ') > colon;
+    return named ? text.substr(colon + 2) : text;
+}
+
+/// Runs `work`; what the libraries throw becomes the Error `what` of the file and the reason.
+template <class Work>
+auto told(const fs::path& file, const char* what, const Work& work) {
+    try {
+        return work();
+    } catch (const Error&) { throw; } catch (const std::bad_alloc&) {
+        throw Error(fmt::format(fmt::runtime(what), file.string(), "out of memory"));
+    } catch (const std::exception& error) {
+        throw Error(fmt::format(fmt::runtime(what), file.string(), reason(error.what())));
+    }
+}
+
+/// The grid and its name.
+std::pair<RawVolume, std::string> read_grid(const fs::path& file, const std::string& wanted, bool voxels) {
+    const bool nano = is_nano(file);
+    return told(file, "{}: cannot be read ({}); it may be truncated or damaged", [&] {
+        const std::vector<ListedGrid> grids = nano ? io::list_nvdb(file) : io::list_vdb(file);
+        const std::size_t chosen = choose(file, grids, wanted);
+        return std::pair(nano ? io::read_nvdb(file, chosen) : io::read_vdb(file, grids[chosen].name, voxels),
+                         grids[chosen].name);
+    });
+}
+
+VolumeInfo info_of(const fs::path& file, const std::string& name, const RawVolume& raw) {
+    const auto fail = [&](const std::string& text) {
+        return Error(fmt::format("{}: the transform of the grid {} {}", file.string(), scene::quote(name), text));
+    };
+    if (!raw.affine) throw fail("is a frustum; an affine one is expected");
+    if (is_singular(raw.world_from_index)) throw fail("cannot be inverted: its axes are zero, parallel or not finite");
+    return {name, raw.channels, inverse(raw.world_from_index)};
+}
+
+bool finite(const std::array<float, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+/// Builds the box of blocks.
+Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
+    const auto fail = [&](const std::string& text) {
+        return Error(fmt::format("{}: the grid {} {}", file.string(), scene::quote(info.grid), text));
+    };
+    if (raw.leaves.empty() && raw.tiles.empty()) throw fail("is empty: it holds its background and nothing else");
+    if (!finite(raw.background)) throw fail("has a background that is not finite");
+    std::array<int, 3> low, high;
+    low.fill(std::numeric_limits<int>::max()), high.fill(std::numeric_limits<int>::min());
+    const auto expand = [&](const std::array<int, 3>& at) {
+        for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k]);
+    };
+    for (const auto& leaf : raw.leaves) expand(leaf);
+    for (const RawVolume::Tile& tile : raw.tiles) expand(tile.first), expand(tile.last);
+    double blocks = 1;
+    std::array<double, 3> extent{};
+    for (std::size_t k = 0; k < 3; ++k) blocks *= extent[k] = 1.0 + high[k] - low[k];
+    if (blocks > kMostBlocks)
+        throw fail(
+            fmt::format("spans {:.0f} x {:.0f} x {:.0f} voxels, {:.3g} blocks of 8 x 8 x 8; {:.3g} fit: crop or "
+                        "resample it",
+                        8 * extent[0], 8 * extent[1], 8 * extent[2], blocks, kMostBlocks));
+
+    Volume out;
+    out.info = std::move(info);
+    out.first = low;
+    for (std::size_t k = 0; k < 3; ++k) out.count[k] = high[k] - low[k] + 1;
+    out.blocks.assign(static_cast<std::size_t>(blocks), -1);
+    std::ranges::copy(raw.background, out.constants.begin());
+    for (const RawVolume::Tile& tile : raw.tiles) {
+        if (!finite(tile.value)) throw fail("has a constant region that is not finite");
+        const auto number = -1 - static_cast<std::int32_t>(out.constants.size() / 3);
+        out.constants.insert(out.constants.end(), tile.value.begin(), tile.value.end());
+        for (int z = tile.first[2]; z <= tile.last[2]; ++z)
+            for (int y = tile.first[1]; y <= tile.last[1]; ++y)
+                for (int x = tile.first[0]; x <= tile.last[0]; ++x) out.blocks[*out.block(x, y, z)] = number;
+    }
+    std::int32_t count = 0;
+    for (const auto& leaf : raw.leaves) out.blocks[*out.block(leaf[0], leaf[1], leaf[2])] = count++;
+    out.voxels = std::move(raw.voxels);
+    const auto is_bad = [](float v) { return !std::isfinite(v); };
+    if (const auto bad = std::ranges::find_if(out.voxels, is_bad); bad != out.voxels.end()) {
+        const auto place = static_cast<std::size_t>(bad - out.voxels.begin());
+        const auto& leaf = raw.leaves[place / (Volume::block_voxels * static_cast<std::size_t>(out.info.channels))];
+        const auto i = static_cast<int>(place % Volume::block_voxels);
+        throw fail(fmt::format("has {} numbers that are NaN or beyond float; the first is at index ({}, {}, {})",
+                               std::ranges::count_if(out.voxels, is_bad), 8 * leaf[0] + i % 8, 8 * leaf[1] + i / 8 % 8,
+                               8 * leaf[2] + i / 64));
+    }
+    return out;
+}
+
+}  // namespace
+
+Volume load_volume(const fs::path& file, const std::string& grid) {
+    auto [raw, name] = read_grid(file, grid, true);
+    VolumeInfo info = info_of(file, name, raw);
+    return told(file, "{}: cannot be used ({})", [&] { return assemble(file, std::move(raw), std::move(info)); });
+}
+
+VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
+    const auto [raw, name] = read_grid(file, grid, false);
+    return info_of(file, name, raw);
+}
+
+void save_volume(const fs::path& file, const DenseVolume& volume) {
+    fs::path partial = file;
+    partial += ".partial";  // renamed when it is complete
+    try {
+        told(file, "{}: cannot be written ({})", [&] {
+            file.extension() == ".nvdb" ? io::write_nvdb(partial, volume) : io::write_vdb(partial, volume);
+            fs::rename(partial, file);
+        });
+    } catch (const Error&) {
+        std::error_code ignored;
+        fs::remove(partial, ignored);
+        throw;
+    }
+}
+
+}  // namespace wrinkle

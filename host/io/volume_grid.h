@@ -1,0 +1,65 @@
+#pragma once
+
+#include "io/volume_file.h"
+
+/// What the readers and writers of the two volume formats share with volume_file.cpp.
+namespace wrinkle::io {
+
+/// A grid of a file, in the terms of messages.
+struct ListedGrid {
+    std::string name, type;
+    bool usable = false;  ///< float, double or 3-vectors of them
+};
+
+/// A grid as it lies in a file: leaves of 8^3 voxels, and tiles of one value.
+struct RawVolume {
+    int channels = 1;
+    bool affine = true;
+    Mat4 world_from_index{};
+    std::array<float, 3> background{};
+    struct Tile {
+        std::array<int, 3> first, last;  ///< blocks, inclusive
+        std::array<float, 3> value;
+    };
+    std::vector<Tile> tiles;                 ///< other than background
+    std::vector<std::array<int, 3>> leaves;  ///< their blocks
+    std::vector<float> voxels;               ///< as Volume::voxels
+};
+
+/// Copies the 512 voxels of a leaf, whose z runs fastest, and its block's coordinates.
+template <class Leaf>
+void add_leaf(RawVolume& raw, const Leaf& leaf) {
+    const auto numbers = [](const auto& v, float* to) {
+        if constexpr (std::is_floating_point_v<std::decay_t<decltype(v)>>)
+            *to = static_cast<float>(v);
+        else
+            for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(v[c]);
+    };
+    const auto origin = leaf.origin();
+    raw.leaves.push_back({origin[0] >> 3, origin[1] >> 3, origin[2] >> 3});
+    const auto channels = static_cast<std::size_t>(raw.channels);
+    const std::size_t start = raw.voxels.size();
+    raw.voxels.resize(start + Volume::block_voxels * channels);
+    for (std::uint32_t i = 0; i < Volume::block_voxels; ++i) {
+        float value[3] = {};
+        numbers(leaf.getValue(i), value);
+        const std::uint32_t x = i >> 6, y = i >> 3 & 7, z = i & 7;
+        for (std::size_t c = 0; c < channels; ++c)
+            raw.voxels[start + c * Volume::block_voxels + (z * 8 + y) * 8 + x] = value[c];
+    }
+}
+
+std::vector<ListedGrid> list_vdb(const std::filesystem::path& file);
+/// Without `voxels` only the transform and the type are read.
+RawVolume read_vdb(const std::filesystem::path& file, const std::string& grid, bool voxels);
+void write_vdb(const std::filesystem::path& file, const DenseVolume& volume);
+/// The newest file version that can be read.
+std::uint32_t newest_vdb();
+
+std::vector<ListedGrid> list_nvdb(const std::filesystem::path& file);
+RawVolume read_nvdb(const std::filesystem::path& file, std::size_t number);
+void write_nvdb(const std::filesystem::path& file, const DenseVolume& volume);
+/// The version of NanoVDB files that can be read: another major one cannot.
+std::uint32_t nvdb_version();
+
+}  // namespace wrinkle::io

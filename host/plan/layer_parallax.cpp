@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/layer_text.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kProjection = 140, kMove = 40, kHeightSample = 40;  // expected operations
+constexpr double kDeepest = 1e6;                                     // metres; keeps what is moved within float32
+
+bool on_uv_plane(const Layer& layer) {
+    const auto reads = [](const auto& bump) {
+        if constexpr (requires { bump.uv; })
+            return bump.uv.source == UvSource::aov;
+        else
+            return false;
+    };
+    return std::visit(reads, layer.bump) || (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
+}
+
+/// Whether a layer after this one uses the UV plane, so that it has to move too.
+bool moves_uv(const LayerText& at) {
+    const std::vector<Layer>& layers = at.emitter.scene.layers;
+    return std::any_of(layers.begin() + (&at.layer - layers.data()) + 1, layers.end(), on_uv_plane);
+}
+
+/// How far towards the viewer a point may go for a height of 1, as a share of its distance: half way at most.
+double farthest(double level) { return 0.5 / std::max(1 - level, 0.5 / kDeepest); }
+
+/// Turns n and puts the derivatives onto the plane of the new one.
+std::string turn(LayerText& at, bool uv) {
+    at.section.reads.insert({"dn_dx", "dn_dy"});
+    at.section.writes.insert("n");
+    at.section.operations += 90 + (uv ? 2 * kProjection : 0);
+    std::string text =
+        "        vec3 flat = n, flat_dx = dp_dx, flat_dy = dp_dy;\n"
+        "        vec3 turned = wr_parallax_normal(n, dn_dx, dn_dy, wr_scale(pixels, nearer), v);\n"
+        "        n = wr_select(active, turned, n);\n"
+        "        {\n" +
+        derivative_text(at.emitter) + "        }\n";
+    if (uv)
+        text +=
+            "        vec2 uv_dx = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dx);\n"
+            "        uv.dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy), uv.dx = uv_dx;\n";
+    return text;
+}
+
+}  // namespace
+
+std::string emit(LayerText& at, const ParallaxLayer& l) {
+    if (!(at.layer.scale > 0 && at.layer.scale <= kDeepest))
+        throw Error(fmt::format("{}: scale is {}; the depth of a parallax is above 0 and at most {} metres", at.who,
+                                at.layer.scale, kDeepest));
+    const bool parallel = at.emitter.available.camera == CameraKind::parallel;
+    const bool march = l.mode == ParallaxMode::march, uv = moves_uv(at), planar = l.uv.source == UvSource::planar;
+    at.section.reads.insert({"p", "n", "dp_dx", "dp_dy"});
+    at.section.writes.insert({"p", "dp_dx", "dp_dy"});
+    if (uv) at.section.reads.insert({"uv", "uv_valid"}), at.section.writes.insert("uv");
+    at.section.operations += kProjection * (1 + at.layer.footprint + (uv && planar)) + kMove +
+                             kHeightSample * (march ? l.steps / 2 + l.refine : 1);
+
+    const std::string name =
+        fmt::format("wr_{}{}", march ? "parallax_march" : "height", l.texture.wrap == Wrap::clamp ? "_clamp" : "");
+    std::string text = at.located(l.texture, TexelKind::height, l.uv);
+    text += parallel ? "        vec3 v = wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)));\n"
+                     : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n"
+                       "        real distance = sqrt(wr_dot(p, p));\n";
+    text += fmt::format("        real reach = wr_parallax_reach({}, m * {}, {});\n",
+                        march ? "wr_dot(n, v)" : "(real)(1)", literal(at.layer.scale),
+                        parallel ? fmt::format("(real)({})", literal(20 * kDeepest))
+                                 : fmt::format("distance * {}", literal(farthest(l.level))));
+    const char* project = "wr_project_to_texture(n, dp_dx, dp_dy, {}, {}, v)";
+    if (at.layer.footprint || l.curved)
+        text += fmt::format(
+            "        vec2 pixels = {};\n",
+            fmt::format(fmt::runtime(project), "wr_v2((real)(1), (real)(0))", "wr_v2((real)(0), (real)(1))"));
+    if (at.layer.footprint) text += "        reach *= wr_parallax_weight(reach * sqrt(wr_dot(pixels, pixels)));\n";
+    text += "        active = active & (reach > 0);\n        if (wr_any(active)) {\n";
+    text += fmt::format("        real lod = {};\n", at.lod("c.dx", "c.dy"));
+    if (march)
+        text += fmt::format(
+            "        vec2 range = wr_scale({0}, reach);\n"
+            "        real step = wr_parallax_step(t, range, lod, {1});\n"
+            "        real h = {2}(t, c.st, range, {3}, lod, step, {1}, {4}, active);\n",
+            fmt::format(fmt::runtime(project), "c.dx", "c.dy"), l.steps, name, literal(l.level), l.refine);
+    else
+        text += fmt::format("        real h = {}(t, c.st, lod);\n", name);
+    text += fmt::format("        real nearer = active ? reach * (h - {}) : (real)(0);\n", literal(l.level));
+    if (uv)
+        text += fmt::format("        uv.st = wr_add(uv.st, wr_scale({}, nearer));\n",
+                            fmt::format(fmt::runtime(project), "uv.dx", "uv.dy"));
+    text += parallel ? "        p = wr_fma(v, nearer, p);\n"
+                     : "        real k = 1 - nearer / (active ? distance : (real)(1));\n"
+                       "        p = wr_scale(p, k);\n";
+    if (l.curved)
+        text += turn(at, uv);
+    else if (!parallel)
+        text += std::string("        dp_dx = wr_scale(dp_dx, k), dp_dy = wr_scale(dp_dy, k);\n") +
+                (uv ? "        uv.dx = wr_scale(uv.dx, k), uv.dy = wr_scale(uv.dy, k);\n" : "");
+    return text + "        }\n";
+}
+
+}  // namespace wrinkle

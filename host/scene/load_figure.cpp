@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/figure.h"
+#include "scene/readers.h"
+
+namespace wrinkle {
+namespace scene {
+namespace {
+
+void read_figure(Table& table, Figure& out) {
+    table.read("columns", out.columns, 1, 16);
+    if (table.read("crop", out.crop, zero_to_one) && !(out.crop[0] < out.crop[2] && out.crop[1] < out.crop[3]))
+        table.complain("crop", "must be [left, top, right, bottom], left < right and top < bottom");
+    table.finish();
+}
+
+void read_panel(Table& table, const Figure& figure, Panel& out) {
+    table.require("caption");
+    table.read("caption", out.caption);
+    table.choose("picture", out.picture,
+                 {{"lit", PanelPicture::lit}, {"normal", PanelPicture::normal}, {"before", PanelPicture::before}});
+    table.require("layers");
+    table.read("layers", out.layers);
+    std::vector<std::string> known;
+    for (const Layer& layer : figure.scene.layers) known.push_back(layer.name);
+    for (const std::string& name : out.layers)
+        if (std::ranges::find(known, name) == known.end())
+            table.complain("layers", fmt::format("names {}, which is no layer of this file{}", quote(name),
+                                                 did_you_mean(name, known)));
+    table.finish();
+}
+
+/// What the pictures that are asked for need of the lighting.
+void check_pictures(Table& root, const Figure& figure) {
+    const Relight relight = figure.scene.lighting.relight;
+    for (const Panel& panel : figure.panels)
+        if (panel.picture == PanelPicture::lit && relight == Relight::off) {
+            root.document().problems.add(root.line_of("panel"),
+                                         "panels show the lit picture; set relight = \"lit\" or \"ratio\" in "
+                                         "[lighting], or picture = \"normal\" in each [[panel]]");
+            return;
+        }
+}
+
+}  // namespace
+}  // namespace scene
+
+Figure load_figure(const std::filesystem::path& file) {
+    using namespace scene;
+    const toml::table values = parse_scene_file(file);
+    Document document{file.parent_path(), true, Problems(file.filename().string())};
+    Table root(document, values, "the figure", 1);
+    Figure out;
+    out.scene.file = file;
+    read_scene(root, out.scene);
+    if (auto table = root.table("figure", "[figure]")) read_figure(*table, out);
+    for (Table& table : root.tables("panel")) read_panel(table, out, out.panels.emplace_back());
+    if (out.panels.empty() && !root.is_bad("panel"))
+        document.problems.add(0,
+                              "needs a [[panel]], at least caption = \"...\" and layers = [] (to evaluate a scene, "
+                              "use \"wrinkle run\")");
+    check_pictures(root, out);
+    root.finish();
+    document.problems.throw_if_any();
+    return out;
+}
+
+Scene panel_scene(const Figure& figure, const Panel& panel) {
+    Scene scene = figure.scene;
+    std::erase_if(scene.layers, [&](const Layer& layer) { return !std::ranges::count(panel.layers, layer.name); });
+    if (panel.picture != PanelPicture::lit) scene.lighting = {};
+    scene.output = {};
+    return scene;
+}
+
+}  // namespace wrinkle

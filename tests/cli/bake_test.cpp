@@ -1,0 +1,58 @@
+// Volumes from the command line: baked, used in a scene, refused.
+#include "io/volume_file.h"
+#include "tests/cli/cli.h"
+
+namespace wrinkle::test {
+namespace {
+
+std::string volume(const std::string& file, const std::string& rest = {}) {
+    return "[[layer]]\nname = \"fog\"\nkind = \"volume\"\nvolume = \"" + file + "\"\n" + rest;
+}
+
+TEST(Bake, VolumesCanBeUsed) {
+    const Workplace place;
+    for (const char* file : {"g.vdb", "g.nvdb"}) {
+        const Ran ran = place.run(std::string("bake-volume golden --size 24 -o ") + file);
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(load_volume(place / file, "golden").info.channels, 1);
+    }
+    EXPECT_EQ(place.run("bake-volume golden-gradient --size 16 -o v.vdb").code, 0);
+    EXPECT_EQ(place.run("bake-volume noise --size 16 -o n.vdb").code, 0);
+    EXPECT_EQ(load_volume(place / "v.vdb", "").info.channels, 3);
+    place.write_scene(volume("g.nvdb", "remap = \"wave\"\n") + volume("n.vdb").replace(18, 3, "mud") +
+                      volume("v.vdb").replace(18, 3, "run"));
+    const Ran run = place.run("run scene.toml -o out");
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Ran explained = place.run("explain scene.toml");
+    expect_mentions(explained.out, {"volume \"fog\"", "wr_volume_trilinear", "wr_volume_vector", "wr_remap_wave"});
+}
+
+TEST(Bake, FrameHasWhatAFrameNeeds) {
+    const Workplace place;
+    const Ran ran = place.run("bake-frame --width 48 --height 32 -o golden.exr");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    place.write_scene(tilt, "golden.exr", "file = \"golden.camera.json\"");
+    const Ran run = place.run("run scene.toml -o out");
+    EXPECT_EQ(run.code, 0) << run.err;
+    expect_mentions(run.out, {"positions reproject within ", "e-0"});
+}
+
+TEST(Bake, BadVolumesAreToldWithTheirLayer) {
+    const Workplace place;
+    write_text(place / "text.vdb", "no volume");
+    place.write_scene(volume("text.vdb"));
+    expect_failed(place.run("run scene.toml -o out"),
+                  {"scene.toml:5: layer \"fog\"", "text.vdb", "neither an OpenVDB"});
+    ASSERT_EQ(place.run("bake-volume noise --size 16 -o n.vdb").code, 0);
+    place.write_scene(volume("n.vdb", "grid = \"densiti\"\n"));
+    expect_failed(place.run("run scene.toml -o out"), {"did you mean \"density\"?", "grids: \"density\" (float)"});
+    const std::string good = read_text(place / "n.vdb");
+    write_text(place / "cut.vdb", good.substr(0, good.size() / 2));
+    place.write_scene(volume("cut.vdb"));
+    expect_failed(place.run("run scene.toml -o out"), {"cut.vdb", "it may be truncated or damaged"});
+    expect_failed(place.run("bake-volume noise -o no/such/n.vdb"), {"no/such/n.vdb", "cannot be written"});
+    expect_failed(place.run("bake-volume clouds -o n.vdb"), {"clouds"});
+}
+
+}  // namespace
+}  // namespace wrinkle::test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "tests/reference/cellular.h"
+#include "tests/reference/fractal.h"
+#include "tests/reference/simplex.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle::reference {
+
+/// The noise of a layer at the lattice coordinates of one octave.
+template <class T>
+OctaveNoise<T> octave_noise(const NoiseLayer& layer) {
+    if (layer.type == NoiseType::worley) {
+        const Cell cell = static_cast<Cell>(layer.feature);
+        return [=](int, Vec<T> p) { return worley_noise(p, cell); };
+    }
+    if (layer.type == NoiseType::simplex)
+        return [=](int octave, Vec<T> p) {
+            const T grown = std::pow(T(layer.lacunarity), T(octave));
+            const Vec<T> period{layer.period[0] * grown, layer.period[1] * grown, layer.period[2] * grown};
+            return simplex_noise(p, period, T(layer.rotation));
+        };
+    return [cubic = layer.type == NoiseType::perlin1985](int, Vec<T> p) { return perlin_noise(p, cubic); };
+}
+
+/// Means of a layer's noise over space, measured (noise_test.cpp samples them again).
+template <class T>
+NoiseMeans<T> noise_means(const NoiseLayer& layer) {
+    switch (layer.type) {
+        case NoiseType::perlin:
+            return {0, T(0.2204L), T(0.0731L)};
+        case NoiseType::perlin1985:
+            return {0, T(0.2091L), T(0.0667L)};
+        case NoiseType::simplex:
+            return {0, T(0.3156L), T(0.1442L)};
+        case NoiseType::worley:
+            break;
+    }
+    if (layer.feature == CellFeature::f1) return {T(0.5199L), T(0.5199L), T(0.3000L)};
+    if (layer.feature == CellFeature::f2) return {T(0.7165L), T(0.7165L), T(0.5337L)};
+    return {T(0.1965L), T(0.1965L), T(0.0637L)};
+}
+
+}  // namespace wrinkle::reference
