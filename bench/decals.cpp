@@ -187,7 +187,7 @@ Entrant prepare(const Device& device, const BenchFrame& frame, const DecalMeasur
 }  // namespace
 
 std::vector<DecalRow> measure_decals(const Device& device, const DecalMeasurement& wanted) {
-    const BenchFrame frame = resampled_frame(load_scene(kData / "scenes/decals.toml"), wanted.size);
+    const BenchFrame frame = Resampler(load_scene(kData / "scenes/decals.toml")).frame(wanted.size);
     const std::size_t pixels = frame.pixels();
     std::vector<Entrant> entrants;
     for (const std::size_t count : wanted.counts) entrants.push_back(prepare(device, frame, wanted, count));
@@ -222,7 +222,10 @@ std::vector<DecalRow> measure_decals(const Device& device, const DecalMeasuremen
                                       e.plain->run(e.resident->scene, spans, e.lists, {plain.x, plain.y, plain.z});
                                   }});
     }
-    (wanted.processor_time ? race_on_processor : race)(contenders, wanted.repetitions);
+    if (wanted.processor_time)
+        race_on_processor(contenders, wanted.repetitions);
+    else
+        race(contenders, wanted.repetitions);
     std::vector<DecalRow> rows;
     std::size_t next = 2;
     for (Entrant& e : entrants) {
