@@ -101,6 +101,11 @@ void for_each_texture(const Scene& scene, const std::function<void(const Texture
         std::visit(
             [&](const auto& bump) {
                 if constexpr (requires { visit(bump.texture); }) visit(bump.texture);
+                if constexpr (requires { bump.textures; })
+                    for (TextureUse use : bump.textures) {
+                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        visit(use);
+                    }
             },
             layer.bump);
         if (layer.mask.texture) visit({.file = layer.mask.texture->file});

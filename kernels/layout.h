@@ -29,6 +29,27 @@ typedef struct {
     WR_SCALAR texture;                                // number of its texture
 } wr_decal;
 
+// A row of a table of decals. q = to_box (p - center) is in [-1,1]^3 inside its box. Shapes: 0 box, 1 sphere, 2 cone.
+typedef struct {
+    WR_SCALAR center[3];
+    WR_SCALAR to_box_x[3], to_box_y[3], to_box_z[3];  // unit axis / half size
+    WR_SCALAR strength[2];    // volume gradient along to_box_x, to_box_y for a slope of 1 along s, t
+    WR_SCALAR repeat[2];      // of the image over the box
+    WR_SCALAR falloff[3];     // 1 / share that fades; 0: a hard edge
+    WR_SCALAR fade_slope, fade_zero;  // angle fade = clamp((n . to_box_z) fade_slope - fade_zero, 0, 1)
+    WR_SCALAR two_sided;      // 1: the angle fade takes |n . to_box_z|
+    WR_SCALAR shape;
+    WR_SCALAR per_size;       // 1: slopes of a cone's image grow as the image shrinks towards the apex
+    WR_SCALAR texture;        // number of its texture
+    WR_SCALAR tile;           // 1: repeated, 0: clamped
+    WR_SCALAR opacity;
+    WR_SCALAR replace;        // 1: takes the place of what the table's rows before made, 0: adds to it
+    WR_SCALAR mask;           // 0 none, 1 object, 2 Cryptomatte
+    WR_SCALAR object;         // index; or upper and lower half of the hash
+    WR_SCALAR object_low;
+    WR_SCALAR unused;         // two whole cache lines a row
+} wr_projector;
+
 // A light. Kinds: 0 sun, 1 point, 2 spot.
 typedef struct {
     WR_SCALAR kind;

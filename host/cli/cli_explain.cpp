@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/frame_list.h"
@@ -26,7 +28,29 @@ std::string join(const std::vector<std::string>& names) {
     return text.empty() ? "-" : text;
 }
 
-void print_json(const Plan& plan, double operations) {
+/// What the lists of the frame's tiles hold, if the scene has tables of decals.
+std::optional<BinReport> bins_of(const Scene& scene, const Frame& frame, const Plan& plan, int number) {
+    if (plan.tables.empty()) return std::nullopt;
+    return bin_report(scene, frame, number);
+}
+
+void print_bins(const Plan& plan, const BinReport& bins) {
+    fmt::print("\ntables of decals: {} rows, {:.1f} MB of tables, bounds and room for lists on the device\n",
+               plan.projectors, static_cast<double>(bins.bytes) / 1e6);
+    fmt::print("  bins: tiles of {} x {} pixels, listed from the top down: all, 256 x 128, 64 x 32, {} x {}\n",
+               DecalBins::kTileWidth, DecalBins::kTileHeight, DecalBins::kTileWidth, DecalBins::kTileHeight);
+    fmt::print("  lists of this frame: {} of {} tiles have decals; {:.1f} a tile that has any, at most {}; {} bytes\n",
+               bins.touched, bins.tiles, static_cast<double>(bins.entries) / std::max<double>(bins.touched, 1),
+               bins.longest, sizeof(std::uint32_t) * bins.entries);
+    if (bins.inherited > 0) fmt::print("  {} tiles share a larger tile's list, for want of room\n", bins.inherited);
+}
+
+void print_json(const Plan& plan, double operations, const std::optional<BinReport>& bins) {
+    nlohmann::json lists;
+    if (bins)
+        lists = {{"rows", plan.projectors},     {"bytes", bins->bytes},     {"tiles", bins->tiles},
+                 {"touched", bins->touched},    {"entries", bins->entries}, {"longest", bins->longest},
+                 {"inherited", bins->inherited}};
     nlohmann::json sections = nlohmann::json::array();
     for (const SectionSummary& section : plan.sections)
         sections.push_back({{"stage", section.stage},
@@ -38,6 +62,7 @@ void print_json(const Plan& plan, double operations) {
                                       {"bytes_per_pixel", plan.bytes},
                                       {"operations_per_pixel", operations},
                                       {"sections", sections},
+                                      {"bins", lists},
                                       {"source", plan.source}}
                            .dump(2));
 }
@@ -48,8 +73,9 @@ void explain(const ExplainArguments& arguments) {
     const Plan plan = plan_for(scene, frame, {});
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
+    const std::optional<BinReport> bins = bins_of(scene, frame, plan, arguments.frame);
     if (arguments.json) {
-        print_json(plan, operations);
+        print_json(plan, operations, bins);
         return;
     }
     fmt::print("{}: {} x {} pixels\n\n", scene.file.string(), frame.size.width, frame.size.height);
@@ -62,6 +88,7 @@ void explain(const ExplainArguments& arguments) {
                    join(section.planes));
     fmt::print("\nexpected per pixel, where nothing is skipped: {:.0f} bytes of planes, {:.0f} operations\n",
                plan.bytes, operations);
+    if (bins) print_bins(plan, *bins);
     if (arguments.no_source) return;
     fmt::print("\n{}", arguments.full ? expand_includes(plan.source, "evaluate.cl") : plan.source);
 }

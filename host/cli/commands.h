@@ -11,6 +11,7 @@ void add_explain(CLI::App& app);
 void add_eval(CLI::App& app);
 void add_figures(CLI::App& app);
 void add_devices(CLI::App& app);
+void add_scatter(CLI::App& app);
 /// bake-volume and bake-frame
 void add_bake(CLI::App& app);
 void add_bench(CLI::App& app);

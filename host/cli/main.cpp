@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
         "  wrinkle run courtyard.toml -o out           evaluate a scene; writes out/normal.exr, out/lit.png ...\n"
         "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
+        "  wrinkle scatter scene.toml -o decals.csv    place decals on a frame at random\n"
         "  wrinkle eval resolve < in.csv > out.csv     one kernel function over rows of numbers (wrinkle eval --list)\n"
         "  wrinkle figures data/figures/*.toml         pictures side by side that show what a layer does\n"
         "  wrinkle devices                             where it can run\n"
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_run(app);
     wrinkle::cli::add_info(app);
     wrinkle::cli::add_explain(app);
+    wrinkle::cli::add_scatter(app);
     wrinkle::cli::add_eval(app);
     wrinkle::cli::add_figures(app);
     wrinkle::cli::add_devices(app);
@@ -40,7 +42,7 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
-                "A command (run, info, explain, eval, figures, bake-volume, bake-frame, devices or bench)");
+                "A command (run, info, explain, scatter, eval, figures, bake-volume, bake-frame, devices or bench)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());

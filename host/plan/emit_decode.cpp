@@ -279,6 +279,37 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
                height, differences);
 }
 
+PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
+    const GeometryText geometry = geometry_text(emitter);
+    std::string planes;
+    for (const std::string& plane : geometry.planes)
+        planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
+    source += fmt::format(
+        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *axes, global float *bounds,
+    uint tiles, uint supers,
+{}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
+{{
+    uint tile = get_global_id(0);
+    if (tile >= tiles) return;
+    uint2 corner = wr_tile_corner(tile, supers);
+    wr_growing box = wr_no_box();
+    for (uint row = corner.y; row < min(corner.y + WR_TILE_HEIGHT, rows); ++row)
+        for (uint column = corner.x; column < min(corner.x + WR_TILE_WIDTH, width); column += WR_LANES) {{
+            long here = (long)in_first + (long)row * width + column, pixels = in_pixels;
+            real x = wr_lane_number() + (real)(column + WR_R(0.5)), y = (real)(first_row + row + WR_R(0.5));
+{}            mask valid = {} & (x < width);
+{}            {}
+            box = wr_grow(box, valid, p, axes);
+        }}
+    wr_store_bounds(box, bounds, tiles, tile);
+}}
+
+)",
+        planes, load_geometry(geometry, "wr_load_near({}, here, pixels)", "            "), geometry.valid,
+        sanitize(geometry, "            "), geometry.position);
+    return {"wr_bin_tiles", geometry.planes, {}, {}};
+}
+
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     const GeometryText geometry = geometry_text(emitter);
     Section section;

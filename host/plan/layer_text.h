@@ -41,6 +41,7 @@ std::string emit(LayerText& at, const HeightChannelLayer& l);
 std::string emit(LayerText& at, const TriplanarLayer& l);
 std::string emit(LayerText& at, const NoiseLayer& l);
 std::string emit(LayerText& at, const ConstantLayer& l);
+std::string emit(LayerText& at, const DecalsLayer& l);
 std::string emit(LayerText& at, const VolumeLayer& l);
 std::string emit(LayerText& at, const ObjectNormalLayer& l);
 std::string emit(LayerText& at, const DerivativeMapLayer& l);

@@ -135,6 +135,10 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         "    global const wr_decal *restrict decals, constant const wr_lighting *lighting, constant const wr_light "
         "*lights,\n",
         name);
+    if (plan.projectors > 0)
+        text +=
+            "    global const wr_projector *restrict projectors, global const uint *restrict lists,\n"
+            "    global const uint *restrict entries, uint supers,\n";
     for (const std::string& plane : kernel.inputs)
         text += fmt::format("    global const float *restrict {},\n", identifier(plane));
     for (const std::string& plane : kernel.scratch)
@@ -167,6 +171,8 @@ Plan make_plan(const Scene& scene, const Available& available, const PlanOptions
     constexpr std::size_t kFewOutputs = 3;
     plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
                   ("#include \"wrinkle.clh\"\n\n" + emitter.helpers);
+
+    if (plan.projectors > 0) plan.tiles = emit_bins(emitter, plan.source);
 
     std::set<std::string> inputs;
     const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -65,7 +67,21 @@ enum class TexelKind { slope, height, mask, vector, volume, volume_smooth };
 struct PlannedTexture {
     TextureUse use;
     TexelKind kind = TexelKind::slope;
-    std::string grid{};  ///< of a volume
+    std::string grid{};                        ///< of a volume
+    std::array<double, 4> region{0, 0, 1, 1};  ///< of the image: s and t from, s and t to
+};
+
+/// A table of decals as kernels see it.
+struct PlannedDecals {
+    std::shared_ptr<const std::vector<Projector>> rows;
+    std::vector<std::uint32_t> order;  ///< of the rows in the device's table
+    struct Image {
+        std::uint32_t texture = 0;  ///< number in the texture table
+        bool height = false;        ///< slopes are per unit of texture, not unitless
+    };
+    std::vector<Image> images;          ///< of each row
+    std::vector<std::uint32_t> hashes;  ///< Cryptomatte, of each row; empty where no row has one
+    double scale = 1;                   ///< of the layer, signed
 };
 
 /// One kernel: its planes in the order of its arguments. Scratch planes exist in split plans only.
@@ -92,7 +108,10 @@ struct Plan {
     std::vector<DecalLayer> decals;    ///< in the order of the decal table
     std::vector<double> decal_scales;  ///< signed
     std::vector<std::size_t> decal_textures;
-    bool neighbours = false;  ///< reads pixels of the rows above and below
+    std::vector<PlannedDecals> tables;
+    std::size_t projectors = 0;          ///< rows of all tables together
+    std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors are binned to
+    bool neighbours = false;             ///< reads pixels of the rows above and below
     std::vector<SectionSummary> sections;
     double bytes = 0;  ///< expected per pixel: planes read and written once
 };

@@ -36,7 +36,7 @@ std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
         const PlannedTexture& known = plan.textures[i];
         if (known.kind == kind && known.use.file == use.file && known.use.content == use.content &&
             known.use.wrap == use.wrap && known.use.y_down == use.y_down && known.use.encoding == use.encoding &&
-            known.use.unit == use.unit)
+            known.use.unit == use.unit && known.region == std::array<double, 4>{0, 0, 1, 1})
             return i;
     }
     plan.textures.push_back({use, kind});

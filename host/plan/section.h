@@ -69,6 +69,10 @@ std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, cons
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted);
 /// Kernel text that declares `dh`, the change of a height plane from pixel to pixel, 0 and marked where there is none.
 std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section);
+/// The kernel that measures the tiles of the frame, for the bins of decals.
+PlannedKernel emit_tiles(const Emitter& emitter, std::string& source);
+/// The kernels that bin decals; gives the one that measures tiles, which reads planes.
+PlannedKernel emit_bins(const Emitter& emitter, std::string& source);
 /// Kernel text that sets dp_dx and dp_dy of p and n.
 std::string derivative_text(const Emitter& emitter);
 /// Kernel text that turns n towards the viewer; `away` where it had to.

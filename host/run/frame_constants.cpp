@@ -13,7 +13,8 @@ namespace {
 using scene::cross, scene::dot, scene::normalize, scene::subtract;
 
 static_assert(sizeof(wr_frame) == 73 * sizeof(double) && sizeof(wr_decal) == 25 * sizeof(double) &&
-                  sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
+                  sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_projector) == 32 * sizeof(double) &&
+                  sizeof(wr_lighting) == 10 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
 void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }
@@ -122,6 +123,48 @@ wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t text
     return out;
 }
 
+wr_projector projector_constants(const PlannedDecals& table, std::size_t index, const Vec3& eye) {
+    const Projector& row = (*table.rows)[index];
+    const PlannedDecals::Image& image = table.images[index];
+    wr_projector out{};
+    put(out.center, subtract(row.center, eye));
+    // Below this a half size has no reciprocal in float: such a decal covers no pixel, so it contributes nothing.
+    constexpr double kLeast = 1e-36;
+    if (!(std::min({row.half_size[0], row.half_size[1], row.half_size[2]}) > kLeast)) return out;
+    const Vec3 x = normalize(row.axis_x);
+    const Vec3 y = normalize(subtract(row.axis_y, scaled(x, dot(x, row.axis_y))));
+    put(out.to_box_x, scaled(x, 1 / row.half_size[0]));
+    put(out.to_box_y, scaled(y, 1 / row.half_size[1]));
+    put(out.to_box_z, scaled(cross(x, y), 1 / row.half_size[2]));
+    const double scale = table.scale * row.scale;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double repeat = row.wrap == Wrap::repeat ? row.repeat[k] : 1;
+        out.repeat[k] = repeat;
+        out.strength[k] = image.height ? scale / 2 * repeat : scale * row.half_size[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) out.falloff[k] = row.falloff[k] > 0 ? 1 / row.falloff[k] : 0;
+    const double slope = 1 / std::max(row.angle_fade[1] - row.angle_fade[0], 1e-6);  // equal angles: as good as a step
+    out.fade_slope = slope * row.half_size[2];
+    out.fade_zero = slope * row.angle_fade[0];
+    out.two_sided = row.two_sided ? 1 : 0;
+    out.shape = static_cast<double>(row.shape);
+    out.per_size = row.shape == ProjectorShape::cone && image.height ? 1 : 0;
+    out.texture = image.texture;
+    out.tile = row.wrap == Wrap::repeat ? 1 : 0;
+    out.opacity = row.opacity;
+    out.replace = row.mode == ProjectorMode::replace ? 1 : 0;
+    if (row.object) {
+        out.mask = 1;
+        out.object = *row.object;
+    }
+    if (!row.cryptomatte.empty()) {
+        out.mask = 2;
+        out.object = table.hashes[index] >> 16;
+        out.object_low = table.hashes[index] & 0xffff;
+    }
+    return out;
+}
+
 FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size) {
     const Vec3 eye = eye_of(inverse(camera.view));
     FrameConstants out;
@@ -136,6 +179,8 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
     }
     for (std::size_t i = 0; i < plan.decals.size(); ++i)
         out.decals.push_back(decal_constants(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));
+    for (const PlannedDecals& table : plan.tables)
+        for (const std::uint32_t row : table.order) out.projectors.push_back(projector_constants(table, row, eye));
     for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
     put(out.lighting.ambient, lighting.ambient);
     put(out.lighting.albedo, lighting.albedo);

@@ -16,6 +16,7 @@ struct FrameConstants {
     wr_frame frame{};
     std::vector<double> origins;  ///< 4 numbers an origin
     std::vector<wr_decal> decals;
+    std::vector<wr_projector> projectors;  ///< of all tables, in the order of evaluation
     wr_lighting lighting{};
     std::vector<wr_light> lights;
 };
@@ -28,6 +29,9 @@ void split_constants(wr_frame& frame);
 
 /// A decal as kernels read it; `scale` is signed, `texture` its number in the table.
 wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye);
+
+/// Row `row` of a planned table as kernels read it.
+wr_projector projector_constants(const PlannedDecals& table, std::size_t row, const Vec3& eye);
 
 FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size);
 

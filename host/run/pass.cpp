@@ -112,7 +112,7 @@ Pass accumulate_decals(const Device& device, std::span<const Layer> decals, cons
     Scene scene;
     scene.layers.assign(decals.begin(), decals.end());
     for (const Layer& layer : scene.layers)
-        if (!std::holds_alternative<DecalLayer>(layer.bump))
+        if (!std::holds_alternative<DecalLayer>(layer.bump) && !std::holds_alternative<DecalsLayer>(layer.bump))
             throw Error(fmt::format("layer \"{}\" is no decal", layer.name));
     return make_pass("accumulate decals", device, scene, frame, options,
                      {.split = options.split,

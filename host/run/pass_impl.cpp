@@ -111,16 +111,17 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
     texels = table(device, std::move(heap.texels));
     textures = table(device, std::move(heap.table));
     texture_seconds = seconds_since(textures_start);
-    set_camera(shape.camera);
 
     const auto build_start = Clock::now();
     built = build_program(device, plan.source, {options.lanes, options.fp64});
+    if (plan.tiles) bins = DecalBins(device, built.program, plan, options.lanes);
     for (const PlannedKernel& planned : plan.kernels) {
         kernels.emplace_back(built.program, planned.name.c_str());
         for (const std::string& name : planned.scratch)
             if (std::ranges::find(scratch_names, name) == scratch_names.end()) scratch_names.push_back(name);
     }
     build_seconds = seconds_since(build_start);
+    set_camera(shape.camera);
     const std::size_t pixels = padded(std::size_t{size.width} * size.height);
     for (std::size_t i = 0; i < scratch_names.size(); ++i)
         scratch.emplace_back(device.context, CL_MEM_READ_WRITE, pixels * bytes_per_output());
@@ -136,6 +137,7 @@ void Pass::Impl::set_camera(const Camera& camera) {
     decals = structs(device, constants.decals, wide);
     light_setup = structs(device, std::vector{constants.lighting}, wide);
     lights = structs(device, constants.lights, wide);
+    if (plan.tiles) bins.set_camera(constants, camera, structs(device, constants.projectors, wide));
 }
 
 cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
@@ -150,11 +152,18 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     const std::size_t in_bytes = std::max(in_pixels, before + touched) * sizeof(float);
     const std::size_t global = (items + kGroup - 1) / kGroup * kGroup;
     std::vector<cl::Event> after = wait;
+    if (plan.tiles) {
+        std::vector<cl::Buffer> planes;
+        for (const std::string& name : plan.tiles->inputs) planes.push_back(plane(in, name, in_bytes));
+        after = {bins.enqueue(frame, planes, rows, size.width, static_cast<cl_uint>(before),
+                              static_cast<cl_uint>(in_pixels), wait)};
+    }
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         cl::Kernel& kernel = kernels[k];
         cl_uint i = 0;
         for (const cl::Buffer* buffer : {&frame, &origins, &texels, &textures, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
+        if (plan.tiles) bins.set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));
         for (const std::string& name : plan.kernels[k].scratch)
             kernel.setArg(
@@ -174,6 +183,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
                                           after.empty() ? nullptr : &after, &done);
         after = {done};
     }
+    if (plan.tiles) bins.used_until(after.front());
     return after.front();
 }
 

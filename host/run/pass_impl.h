@@ -4,6 +4,7 @@
 
 #include "device/program.h"
 #include "plan/plan.h"
+#include "run/decal_bins.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
@@ -19,6 +20,7 @@ struct Pass::Impl {
     BuiltProgram built;
     std::vector<cl::Kernel> kernels;
     cl::Buffer texels, textures, frame, origins, decals, light_setup, lights;
+    DecalBins bins;                   ///< of the plan's tables of decals, if it has any
     std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
     std::vector<std::string> scratch_names;
     double texture_seconds = 0, build_seconds = 0;

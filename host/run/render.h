@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "run/decal_bins.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
@@ -39,5 +40,8 @@ RenderReport render(const Scene& scene, const RenderOptions& options);
 
 /// What a plan for the scene's first frame may count on, without reading pixels.
 Frame describe_frame(const Scene& scene, int frame = 0);
+
+/// What the bins of a scene's tables of decals hold on its frame `number`, all of it at once.
+BinReport bin_report(const Scene& scene, const Frame& frame, int number = 0);
 
 }  // namespace wrinkle

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "io/volume_file.h"
 #include "run/volume_heap.h"
@@ -55,6 +56,23 @@ void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
     }
 }
 
+bool is_whole(const PlannedTexture& planned) { return planned.region == std::array<double, 4>{0, 0, 1, 1}; }
+
+/// The texels of a region, whole ones, at least one each way.
+Image cropped(const Image& image, const std::array<double, 4>& region) {
+    const auto range = [](double from, double to, int size) {
+        const int first = std::clamp(static_cast<int>(std::lround(from * size)), 0, size - 1);
+        return std::pair{first, std::clamp(static_cast<int>(std::lround(to * size)), first + 1, size)};
+    };
+    const auto [left, right] = range(region[0], region[2], image.width);
+    const auto [bottom, top] = range(region[1], region[3], image.height);
+    Image out{right - left, top - bottom, image.channels, {}};
+    for (int y = bottom; y < top; ++y)
+        for (int x = left; x < right; ++x)
+            for (int c = 0; c < image.channels; ++c) out.texels.push_back(image.at(x, y, c));
+    return out;
+}
+
 /// Slopes of tangent-space normals [Mik20 listing 2]; m = 0 is flat.
 Image slopes_of_normals(const Image& image, bool y_down) {
     Image slopes{image.width, image.height, 2, {}};
@@ -94,7 +112,7 @@ Image finest_level(const Image& image, const TextureUse& use) {
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
     const bool sobel = planned.kind == TexelKind::slope && planned.use.content == Content::height;
-    Image level = finest_level(image, planned.use);
+    Image level = finest_level(is_whole(planned) ? image : cropped(image, planned.region), planned.use);
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -119,12 +137,17 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
+    std::map<std::pair<std::filesystem::path, Content>, Image> atlases;  // files of which only regions are used
     for (const PlannedTexture& texture : planned) {
         if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
             add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
-            continue;
+        } else if (is_whole(texture)) {
+            add_texture(heap, load_bump(texture.use), texture);
+        } else {
+            const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, texture.use.content});
+            if (is_new) atlas->second = load_bump(texture.use);
+            add_texture(heap, atlas->second, texture);
         }
-        add_texture(heap, load_bump(texture.use), texture);
     }
     heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
     return heap;

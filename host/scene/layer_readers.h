@@ -31,6 +31,7 @@ void read_derivative_map(Table& table, Layer& layer);
 void read_triplanar(Table& table, Layer& layer);
 void read_noise(Table& table, Layer& layer);
 void read_decal(Table& table, Layer& layer);
+void read_decals(Table& table, Layer& layer);
 void read_volume(Table& table, Layer& layer);
 void read_parallax(Table& table, Layer& layer);
 

@@ -25,6 +25,7 @@ constexpr Kind<Layer> kinds[] = {
     {TriplanarLayer::kind, read_triplanar},
     {NoiseLayer::kind, read_noise},
     {DecalLayer::kind, read_decal},
+    {DecalsLayer::kind, read_decals},
     {VolumeLayer::kind, read_volume},
     {ConstantLayer::kind, read_constant},
     {ParallaxLayer::kind, read_parallax},

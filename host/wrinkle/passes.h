@@ -90,9 +90,10 @@ private:
 /// Throws Error naming the layer when planes, textures or names are missing.
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options = {});
 
-/// Volume gradients of decals, accumulated with no normal at hand; [Mik20 4.5] projects them later, onto any normal:
-/// g = volume_gradient - n (n . volume_gradient), then normalize(n - g). The angle fade needs a normal and is left out;
-/// footprints are those of a surface that faces the viewer. The sum depends on the order only by rounding.
+/// Volume gradients of decals and tables of decals, accumulated with no normal at hand; [Mik20 4.5] projects them
+/// later, onto any normal: g = volume_gradient - n (n . volume_gradient), then normalize(n - g). The angle fade needs a
+/// normal and is left out; footprints are those of a surface that faces the viewer. The sum depends on the order only
+/// by rounding.
 ///   inputs: depth or position.*    outputs: volume_gradient.x .y .z (world, metres per metre)
 Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
                        const PassOptions& options = {});

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -186,6 +188,42 @@ struct DecalLayer {
     std::array<double, 2> angle_fade{0.25, 0.5};  ///< cosine of normal to axis_z: 0 below the first, 1 above the second
 };
 
+enum class ProjectorShape {
+    box,     ///< projects along z
+    sphere,  ///< the ellipsoid within the box; projects along z
+    cone,    ///< a spot: apex in the middle of the box's +z face, base on its -z face; the image fans out from the apex
+};
+enum class ProjectorMode { add, replace };
+
+/// One row of a table of decals.
+struct Projector {
+    ProjectorShape shape = ProjectorShape::box;
+    std::uint32_t texture = 0;                 ///< into the layer's textures
+    std::array<double, 4> region{0, 0, 1, 1};  ///< of that texture: s and t from, s and t to; whole texels
+    Vec3 center{};                             ///< of the box, world
+    Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};     ///< as those of DecalLayer
+    Vec3 half_size{0.5, 0.5, 0.5};             ///< metres; 0 or less: touches nothing
+    double scale = 1;                          ///< metres for a height of 1; a plain factor for normals and slopes
+    Vec3 falloff{0.1, 0.1, 0.1};               ///< share that fades: box x, y, z; sphere radius; cone radius, -, length
+    std::array<double, 2> angle_fade{0.25, 0.5};  ///< as DecalLayer's
+    bool two_sided = false;                       ///< false: nothing on surfaces that face away from the projector
+    Wrap wrap = Wrap::clamp;
+    std::array<double, 2> repeat{1, 1};  ///< times the region repeats over the box, with Wrap::repeat
+    ProjectorMode mode = ProjectorMode::add;
+    double opacity = 1;
+    double priority = 0;             ///< lower ones first; equal ones in the order of the table
+    std::optional<double> object{};  ///< only pixels with this object index
+    std::string cryptomatte{};       ///< only this object, by its coverage; name, or "#" and 8 hex digits
+};
+
+/// Many decals. Those that add are independent of order; one that replaces takes g to g + (d - g) weight of what the
+/// rows of the same table before it made.
+struct DecalsLayer {
+    static constexpr const char* kind = "decals";
+    std::vector<TextureUse> textures{};  ///< slopes are metres over metres, whatever their unit says
+    std::shared_ptr<const std::vector<Projector>> rows{};
+};
+
 /// What a volume's value becomes before it is a height; t goes from 0 to 1 over a range of values.
 enum class Remap {
     none,    ///< the value itself
@@ -242,7 +280,8 @@ struct Layer {
     std::string name;      ///< unique; "kind N" when the file gives none
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
     std::variant<NormalMapLayer, HeightMapLayer, HeightChannelLayer, TriplanarLayer, NoiseLayer, DecalLayer,
-                 ConstantLayer, ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer, VolumeLayer>
+                 DecalsLayer, ConstantLayer, ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer,
+                 VolumeLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;
@@ -321,6 +360,13 @@ struct Scene {
     Lighting lighting;
     Output output;
 };
+
+/// Reads a table of decals (CSV: a row of column names, then a row a decal; README.md lists the columns). Throws Error
+/// with the line and column of each mistake, the first 20 of them. `textures`: how many textures rows may name.
+std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures);
+
+/// Writes one that load_decals reads back to the same numbers.
+void save_decals(const std::filesystem::path& file, const std::vector<Projector>& rows);
 
 /// Reads and checks a scene in full; relative paths are relative to the scene's folder.
 /// Throws Error listing every problem as "file:line: what was found; what is allowed", nearest known key included.

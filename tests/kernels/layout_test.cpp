@@ -74,6 +74,16 @@ TEST(Layout, Decal) {
     check_layout("wr_decal", members, sizeof s);
 }
 
+TEST(Layout, Projector) {
+    const auto s = counted<wr_projector>();
+    std::vector<Member> members;
+    MEMBER(center), MEMBER(to_box_x), MEMBER(to_box_y), MEMBER(to_box_z), MEMBER(strength), MEMBER(repeat);
+    MEMBER(falloff), MEMBER(fade_slope), MEMBER(fade_zero), MEMBER(two_sided), MEMBER(shape), MEMBER(per_size);
+    MEMBER(texture), MEMBER(tile), MEMBER(opacity), MEMBER(replace), MEMBER(mask), MEMBER(object), MEMBER(object_low);
+    MEMBER(unused);
+    check_layout("wr_projector", members, sizeof s);
+}
+
 TEST(Layout, Light) {
     const auto s = counted<wr_light>();
     std::vector<Member> members;

@@ -61,7 +61,8 @@ public:
         out.base = out.last = frame_.derivative(i, here.position, here.normal);
         if (here.reflected) out.marked |= Marked::back_facing;
 
-        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false, {}};
+        Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false, {}, {}};
+        if (frame_.has("object")) s.object = frame_.plane("object")[i];
         s.height_slope = [&](const std::string& name) { return frame_.height_slope(i, here, out.base, name); };
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};

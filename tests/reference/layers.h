@@ -11,6 +11,7 @@
 #include "tests/reference/object_scale.h"
 #include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
+#include "tests/reference/projector.h"
 #include "tests/reference/scale_dependent.h"
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
@@ -162,6 +163,31 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
         Vec2<T> d = texture.slope(at, footprint);
         if (texture.content == Content::height) d = {d.x / (2 * box.half_size.x), d.y / (2 * box.half_size.y)};
         return {{}, decal_volume_gradient(d, box.x, box.y) * weight};
+    };
+}
+
+/// Every row at every point, in order: by priority where any row replaces, else as they come. Cryptomatte masks of rows
+/// are not known here.
+template <class T>
+LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextures<T>& textures) {
+    struct Entry {
+        Projector row;
+        LayerTexture<T> texture;
+    };
+    std::vector<Entry> entries;
+    for (const Projector& row : *layer.rows) {
+        TextureUse use = layer.textures.at(row.texture);
+        use.wrap = row.wrap;
+        entries.push_back({row, textures.slopes(use, use.content, row.region)});
+    }
+    std::ranges::stable_sort(entries, {}, [](const Entry& e) { return e.row.priority; });
+    return [=](const Surfel<T>& s) -> Contribution<T> {
+        Vec<T> sum;
+        for (const Entry& e : entries) {
+            if (e.row.object && s.object != *e.row.object) continue;
+            add_projector(e.row, e.texture, s, footprint, sum);
+        }
+        return {{}, sum};
     };
 }
 

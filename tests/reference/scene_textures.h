@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -76,37 +77,56 @@ Pyramid<T> value_pyramid(const Image& image, bool y_down) {
     return build_pyramid(std::move(top), image.channels);
 }
 
+using Region = std::array<double, 4>;  ///< s and t from, s and t to
+inline constexpr Region whole{0, 0, 1, 1};
+
+/// The texels of a region whose edges are moved to the nearest texels'.
+inline Image cut(const Image& image, const Region& region) {
+    const auto edge = [](double at, int size) { return static_cast<int>(std::floor(at * size + 0.5)); };
+    const int left = std::min(edge(region[0], image.width), image.width - 1);
+    const int bottom = std::min(edge(region[1], image.height), image.height - 1);
+    const int right = std::max(edge(region[2], image.width), left + 1);
+    const int top = std::max(edge(region[3], image.height), bottom + 1);
+    Image out{right - left, top - bottom, image.channels, {}};
+    for (int y = bottom; y < top; ++y) {
+        const auto row = image.texels.begin() + static_cast<std::ptrdiff_t>(y) * image.width * image.channels;
+        out.texels.insert(out.texels.end(), row + left * image.channels, row + right * image.channels);
+    }
+    return out;
+}
+
 /// Builds each pyramid once.
 template <class T>
 class SceneTextures {
 public:
     explicit SceneTextures(const Images& images) : images_(images) {}
 
-    LayerTexture<T> slopes(const TextureUse& use, Content content) {
+    LayerTexture<T> slopes(const TextureUse& use, Content content, const Region& region = whole) {
         const bool y_down = (content == Content::normal || content == Content::slope) && use.y_down;
         const Address wrap = use.wrap == Wrap::repeat ? Address::repeat : Address::clamp;
-        return {pyramid(use.file.string(), content, y_down), content, use.upscale, wrap};
+        return {pyramid(use.file.string(), content, y_down, region), content, use.upscale, wrap};
     }
     /// First channel, repeated: a mask.
     LayerTexture<T> values(const std::string& file) {
-        return {pyramid(file, Content::height, false), Content::height, Upscale::plain, Address::repeat};
+        return {pyramid(file, Content::height, false, whole), Content::height, Upscale::plain, Address::repeat};
     }
 
 private:
-    std::shared_ptr<const Pyramid<T>> pyramid(const std::string& file, Content content, bool y_down) {
-        auto& slot = pyramids_[{file, content, y_down}];
+    std::shared_ptr<const Pyramid<T>> pyramid(const std::string& file, Content content, bool y_down,
+                                              const Region& region) {
+        auto& slot = pyramids_[{file, content, y_down, region}];
         if (slot) return slot;
         const auto image = images_.find(file);
         if (image == images_.end()) throw std::runtime_error("reference: texture not given: " + file);
-        slot =
-            std::make_shared<const Pyramid<T>>(content == Content::normal   ? slope_pyramid<T>(image->second, y_down)
-                                               : content == Content::height ? first_channel_pyramid<T>(image->second)
-                                                                            : value_pyramid<T>(image->second, y_down));
+        const Image part = cut(image->second, region);
+        slot = std::make_shared<const Pyramid<T>>(content == Content::normal   ? slope_pyramid<T>(part, y_down)
+                                                  : content == Content::height ? first_channel_pyramid<T>(part)
+                                                                               : value_pyramid<T>(part, y_down));
         return slot;
     }
 
     const Images& images_;
-    std::map<std::tuple<std::string, Content, bool>, std::shared_ptr<const Pyramid<T>>> pyramids_;
+    std::map<std::tuple<std::string, Content, bool, Region>, std::shared_ptr<const Pyramid<T>>> pyramids_;
 };
 
 }  // namespace wrinkle::reference

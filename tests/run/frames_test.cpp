@@ -241,6 +241,38 @@ TEST(Frames, DerivativeMapsOfEveryScale) {
         }
 }
 
+TEST(Frames, DecalsOfSlopesAndTheirRegions) {
+    const HostFrame frame(plane_frame(test_camera(), {31, 20}, slanted), test_camera());
+    const reference::Frame<double> decoder({}, frame.frame.size, frame.frame.camera, frame.planes());
+    const V at = decoder.decode(frame.count() / 2).position + decoder.rays().eye();
+    std::vector<Projector> rows(2);
+    for (Projector& row : rows) {
+        row.center = {at.x, at.y, at.z};
+        row.half_size = {3, 2, 4};
+        row.two_sided = true;
+        row.angle_fade = {0, 0.1};
+    }
+    rows[1].region = {0.25, 0.5, 0.75, 1};
+    rows[1].shape = ProjectorShape::cone;
+    rows[1].scale = 0.3;
+    for (const Encoding encoding : {Encoding::automatic, Encoding::sign}) {
+        DecalsLayer wear;
+        wear.textures = {{.file = data_folder / "textures/rock_slopes.png", .content = Content::slope}};
+        wear.textures[0].encoding = encoding;
+        wear.textures[0].y_down = encoding == Encoding::sign;
+        wear.rows = std::make_shared<const std::vector<Projector>>(rows);
+        Scene scene = small_scene();
+        scene.layers[0].bump = wear;
+        expect_agreement("decals of slopes", frame, scene);
+        scene.layers.resize(1);
+        const Pixels alone = evaluate_on(frame, scene);
+        std::size_t bumped = 0;
+        for (std::size_t i = 0; i < frame.count(); ++i)
+            bumped += length(vec_at(alone, "surface_gradient", i)) > 1e-3 ? 1 : 0;
+        EXPECT_GT(bumped, 50u);
+    }
+}
+
 TEST(Frames, InvertedTextureMaskIsZeroWithoutUvDerivative) {
     HostFrame frame(plane_frame(test_camera(), {9, 9}, slanted), test_camera());
     frame.add("object");

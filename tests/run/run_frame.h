@@ -103,6 +103,11 @@ inline reference::Images images_of(const Scene& scene) {
         std::visit(
             [&](const auto& bump) {
                 if constexpr (requires { bump.texture; }) add(bump.texture);
+                if constexpr (requires { bump.textures; })
+                    for (TextureUse use : bump.textures) {
+                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        add(use);
+                    }
             },
             layer.bump);
         if (layer.mask.texture) add({.file = layer.mask.texture->file});

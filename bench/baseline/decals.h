@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "baseline.h"
+#include "camera_terms.h"
+
+/// Tables of decals in plain C++ from listing 15 of [Mik20]: boxes, spheres and cones that add or replace, given the
+/// list of each tile. One pixel at a time, OpenMP over rows of tiles.
+namespace wrinkle::baseline {
+
+struct TileLists {
+    int tile_width = 0, tile_height = 0;
+    std::vector<std::vector<std::uint32_t>> lists;  ///< tile by tile in rows; numbers of rows in the table
+};
+
+class DecalTable {
+public:
+    /// Rows without masks of their own. `textures` by the file names used in the layer.
+    DecalTable(const DecalsLayer& layer, double scale, Size size, const Camera& camera,
+               const std::map<std::filesystem::path, Image>& textures);
+    ~DecalTable();
+
+    /// New normals of a frame of planar depth.
+    void run(const Scene& scene, const PlaneMap& planes, const TileLists& tiles, Planes out) const;
+
+private:
+    struct Prepared;
+    std::unique_ptr<const Prepared> prepared_;
+};
+
+}  // namespace wrinkle::baseline

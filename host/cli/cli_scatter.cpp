@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "io/camera_file.h"
+#include "io/frame_path.h"
+#include "io/gbuffer_reader.h"
+#include "run/render.h"
+#include "run/scatter.h"
+
+namespace wrinkle::cli {
+
+namespace {
+
+struct ScatterArguments {
+    std::filesystem::path scene, file = "decals.csv";
+    int frame = 0;
+    ScatterOptions options;
+    std::vector<double> size{0.1, 0.2};
+    std::vector<std::uint32_t> atlas{1, 1};
+    bool replace = false;
+};
+
+void scatter(ScatterArguments arguments) {
+    const Scene scene = load_scene(arguments.scene);
+    const Frame frame = describe_frame(scene, arguments.frame);
+    const GBufferReader reader(frame_path(scene.gbuffer.file, arguments.frame), scene.gbuffer);
+    std::map<std::string, std::vector<float>> pixels;
+    for (const char* name : {"depth", "normal.x", "normal.y", "normal.z", "position.x", "position.y", "position.z"})
+        if (reader.has_plane(name)) pixels[name].resize(std::size_t{frame.size.width} * frame.size.height);
+    std::vector<std::string> names;
+    std::vector<float*> into;
+    for (auto& [name, values] : pixels) {
+        names.push_back(name);
+        into.push_back(values.data());
+    }
+    reader.read_rows(0, frame.size.height, names, into);
+    ScatterOptions& options = arguments.options;
+    options.half_size = {arguments.size[0], arguments.size[1]};
+    options.atlas = {arguments.atlas[0], arguments.atlas[1]};
+    if (arguments.replace) options.mode = ProjectorMode::replace;
+    const std::vector<Projector> rows = scatter_decals(options, frame, {pixels.begin(), pixels.end()});
+    save_decals(arguments.file, rows);
+    fmt::print("wrote {}: {} decals{}\n", arguments.file.string(), rows.size(),
+               rows.size() < options.count
+                   ? fmt::format("; {} did not fit with that spacing", options.count - rows.size())
+                   : "");
+}
+
+}  // namespace
+
+void add_scatter(CLI::App& app) {
+    auto arguments = std::make_shared<ScatterArguments>();
+    ScatterOptions& options = arguments->options;
+    CLI::App* command =
+        app.add_subcommand("scatter", "Place decals on a scene's frame at random, a Poisson disk sample, into a table");
+    command->add_option("SCENE", arguments->scene, "scene file (TOML); its layers do not matter")->required();
+    command->add_option("-o,--output", arguments->file, "the table")->type_name("FILE")->capture_default_str();
+    command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
+    command->add_option("--count", options.count, "decals, at most")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10'000'000));
+    command->add_option("--seed", options.seed, "the same seed gives the same table")->capture_default_str();
+    command->add_option("--spacing", options.spacing, "least distance of centres, metres")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--size", arguments->size, "half size, from and to, metres")
+        ->expected(2)
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--pixels", options.pixels, "--spacing and --size are in pixels");
+    command->add_option("--depth", options.depth, "metres for a height of 1, as a share of the half size")
+        ->capture_default_str();
+    command->add_option("--thickness", options.thickness, "half size along the normal, as a share of the half size")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command->add_option("--textures", options.textures, "textures to draw from")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1'000'000));
+    command->add_option("--atlas", arguments->atlas, "columns and rows of each texture; a decal gets one field")
+        ->expected(2)
+        ->check(CLI::Range(1, 10'000));
+    command->add_option("--shapes", options.shapes, "shapes to draw from: box, sphere, cone")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, ProjectorShape>{
+            {"box", ProjectorShape::box}, {"sphere", ProjectorShape::sphere}, {"cone", ProjectorShape::cone}}));
+    command->add_flag("--replace", arguments->replace, "decals replace those before them instead of adding up");
+    command->add_option("--opacity", options.opacity, "of each")->capture_default_str()->check(CLI::Range(0.0, 1.0));
+    command->callback([arguments] { scatter(*arguments); });
+}
+
+}  // namespace wrinkle::cli

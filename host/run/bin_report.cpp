@@ -1,0 +1,36 @@
+#include "device/guarded.h"
+#include "io/camera_file.h"
+#include "io/frame_path.h"
+#include "io/gbuffer_reader.h"
+#include "run/pass_impl.h"
+#include "run/plane_buffers.h"
+#include "run/render.h"
+
+namespace wrinkle {
+
+BinReport bin_report(const Scene& scene, const Frame& frame, int number) {
+    return guarded("bin decals", [&] {
+        const Device device = Device::open();
+        Pass pass = evaluate(device, scene, frame);
+        Pass::Impl& impl = pass.impl();
+        if (!impl.plan.tiles) return BinReport{};
+        const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+        const Size size = frame.size;
+        PlaneBuffers planes(device, impl.plan.tiles->inputs, std::size_t{size.width} * size.height, sizeof(float));
+        std::vector<float*> into;
+        std::vector<cl::Buffer> buffers;
+        for (const std::string& name : impl.plan.tiles->inputs) {
+            into.push_back(planes.map<float>(name, CL_MAP_WRITE));
+            buffers.push_back(planes.planes().at(name));
+        }
+        reader.read_rows(0, size.height, impl.plan.tiles->inputs, into);
+        planes.unmap();
+        impl.bins
+            .enqueue(impl.frame, buffers, {.first = 0, .count = size.height}, size.width, 0, size.width * size.height,
+                     {})
+            .wait();
+        return impl.bins.read(size.width, size.height);
+    });
+}
+
+}  // namespace wrinkle
