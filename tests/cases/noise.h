@@ -45,8 +45,9 @@ inline Cases perlin_cases(bool cubic) {
     return c;
 }
 
-/// Simplex noise: golden rows, then points up to 2^20. Constants of a row: its periods and its angle.
-inline Cases simplex_cases() {
+/// Simplex noise: golden rows, then points up to 1e6 and periods up to the longest. Constants of a row: its periods and
+/// its angle.
+inline Cases simplex_cases(int longest_period) {
     Cases c{.name = "psrdnoise3_glsl"};
     c.data.constants_per_row = 4;
     const auto constants = [&](V period, real angle) {
@@ -60,7 +61,8 @@ inline Cases simplex_cases() {
     }
     each_lattice_point(1e6L, [&](const std::string& label, bool hard, V p) {
         Random random(static_cast<unsigned>(c.size()));
-        const V period{real(random.below(3) * random.below(100)), real(random.below(1 << 20)), real(random.below(9))};
+        const V period{real(random.below(3) * random.below(100)), real(random.below(longest_period)),
+                       real(random.below(9))};
         const real angle = random.below(2) * random.uniform(-7, 7);
         add_noise(c, label, hard, p, reference::simplex_noise(p, period, angle));
         constants(period, angle);
