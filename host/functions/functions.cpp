@@ -100,8 +100,8 @@ const Function& function(const std::string& name) {
         if (function.name == name) return function;
         names.push_back(function.name);
     }
-    throw Error(fmt::format("there is no function \"{}\"{} see wrinkle eval --list", name,
-                            scene::did_you_mean(name, names).empty() ? ";" : scene::did_you_mean(name, names) + ";"));
+    throw Error(fmt::format("there is no function \"{}\"{} (wrinkle eval --list shows all)", name,
+                            scene::did_you_mean(name, names)));
 }
 
 void evaluate_function(const Device& device, const Function& function, const Columns& in, const ColumnResults& out,
