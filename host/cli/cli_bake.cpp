@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "io/atomic_file.h"
 #include "io/image_writer.h"
 #include "run/bake.h"
-#include "wrinkle/error.h"
 
 namespace wrinkle::cli {
 
@@ -24,6 +23,7 @@ void bake_a_volume(const BakeArguments& arguments) {
     const BakedVolume kind = arguments.kind == "noise"    ? BakedVolume::noise
                              : arguments.kind == "golden" ? BakedVolume::golden
                                                           : BakedVolume::golden_gradient;
+    check_volume_name(arguments.output, kind == BakedVolume::golden_gradient ? 3 : 1);
     DenseVolume volume = bake_volume(Device::open(arguments.device), kind, arguments.size);
     volume.half = true;
     save_volume(arguments.output, volume);
@@ -40,14 +40,17 @@ void bake_a_frame(const BakeArguments& arguments) {
     for (const auto& [name, values] : planes) names.push_back(name), pixels.push_back(values.data());
     ImageWriter image(arguments.output, size, names);
     image.write_rows(0, size.height, pixels);
+    image.complete();
     std::filesystem::path camera_file = arguments.output;
     camera_file.replace_extension(".camera.json");
-    std::ofstream json(camera_file);
-    json << nlohmann::json{{"width", size.width}, {"height", size.height}, {"view", camera.view}, {"proj", camera.proj}}
-                .dump(1)
-         << '\n';
-    if (!json.flush()) throw Error(fmt::format("cannot write {}", camera_file.string()));
+    io::AtomicFile json(camera_file);
+    json.write(
+        nlohmann::json{{"width", size.width}, {"height", size.height}, {"view", camera.view}, {"proj", camera.proj}}
+            .dump(1) +
+        "\n");
+    json.sync();
     image.finish();
+    json.commit();
     fmt::print("{}, {}\n", arguments.output.string(), camera_file.string());
 }
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
 #include "io/atomic_file.h"
@@ -23,17 +22,6 @@ constexpr std::size_t block = std::size_t{1} << 20;  // bytes at a time
 
 std::string extension_of(const EvalFile& file) { return io::lower(file.file.extension().string()); }
 
-/// 0, or the errno of what failed.
-int write_all(int descriptor, const char* data, std::size_t size) {
-    while (size > 0) {
-        const ssize_t written = ::write(descriptor, data, size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return errno;
-        data += written, size -= static_cast<std::size_t>(written);
-    }
-    return 0;
-}
-
 /// Text on its way to a file, or to standard output.
 class Stream {
 public:
@@ -41,10 +29,10 @@ public:
     std::string& text() { return text_; }
     void flush(std::size_t unless_below = 0) {
         if (text_.size() < unless_below) return;
-        const int failure = write_all(file_ ? file_->descriptor() : standard_output, text_.data(), text_.size());
-        if (failure != 0)
-            throw Error(file_ ? file_->failure(std::strerror(failure))
-                              : fmt::format("cannot write the output: {}", std::strerror(failure)));
+        if (file_)
+            file_->write(text_);
+        else if (const int failed = io::write_all(standard_output, text_); failed != 0)
+            throw Error(fmt::format("cannot write the output: {}", std::strerror(failed)));
         text_.clear();
     }
 

@@ -28,6 +28,16 @@ std::filesystem::path partial_name(const std::filesystem::path& target) {
 
 }  // namespace
 
+int write_all(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return written < 0 ? errno : EIO;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return 0;
+}
+
 AtomicFile::AtomicFile(std::filesystem::path target, Temporary temporary) : target_(std::move(target)) {
     std::error_code code;
     // A link keeps pointing where it points; what it points at is replaced.
@@ -91,6 +101,10 @@ void AtomicFile::link_into_place() {
         throw Error(failure(std::strerror(errno)));
     }
     named_ = true;
+}
+
+void AtomicFile::write(std::string_view bytes) const {
+    if (const int failed = write_all(descriptor_, bytes); failed != 0) throw Error(failure(std::strerror(failed)));
 }
 
 void AtomicFile::sync() const {

@@ -2,8 +2,12 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace wrinkle::io {
+
+/// Writes all of it; gives 0, or the errno of what failed.
+int write_all(int descriptor, std::string_view bytes);
 
 /// A file that appears under its name only when it is complete.
 ///
@@ -20,6 +24,9 @@ public:
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     int descriptor() const { return descriptor_; }
+
+    /// Appends. Throws Error when the disk is full.
+    void write(std::string_view bytes) const;
 
     /// Has all of it on disk, still without a name. Throws Error.
     void sync() const;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/image_open.h"
+#include "io/reason.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {

@@ -2,26 +2,36 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <fstream>
+#include <string_view>
 
+#include "io/reason.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
+namespace {
 
-std::string reason(std::string text) {
-    text = text.substr(0, text.find('\n'));
-    // OpenEXR says 'Cannot read image file "F". WHY': the caller has named the file already.
-    if (const auto name = text.find("image file \""); name != std::string::npos) {
-        const auto why = text.find("\". ", name);
-        if (why != std::string::npos) text = text.substr(why + 3);
+/// Whether a PNG ends before its last chunk. libpng would tell so on stderr.
+bool is_cut_png(const std::filesystem::path& file) {
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+    std::ifstream in(file, std::ios::binary);
+    std::array<char, 8> word{};  // the signature, then length and type of each chunk
+    in.read(word.data(), word.size());
+    if (!in || std::string_view(word.data(), word.size()) != signature) return false;
+    while (in.read(word.data(), word.size())) {
+        if (std::string_view(word.data() + 4, 4) == "IEND") return false;
+        std::uint32_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(word[i]);
+        in.seekg(std::int64_t{length} + 4, std::ios::cur);  // and its checksum
     }
-    while (text.ends_with('.')) text.pop_back();
-    constexpr std::size_t longest = 200;
-    if (text.size() > longest) text = text.substr(0, longest) + "...";
-    return text.empty() ? "" : fmt::format(" ({})", text);
+    return true;
 }
+
+}  // namespace
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const OIIO::ImageSpec& options) {
     std::error_code code;
@@ -37,6 +47,8 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, 
     if (::access(file.c_str(), R_OK) != 0) {
         throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
     }
+    if (std::filesystem::is_regular_file(status) && is_cut_png(file))
+        throw Error(fmt::format("{}: the PNG is truncated; was it still being written?", file.string()));
     OIIO::geterror();  // drop what earlier calls left behind
     auto input = OIIO::ImageInput::open(file.string(), &options);
     if (!input) throw Error(fmt::format("{}: not an image, or damaged{}", file.string(), reason(OIIO::geterror())));

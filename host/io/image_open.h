@@ -11,7 +11,4 @@ namespace wrinkle::io {
 /// Opens an image for reading. Throws Error saying which of these it is: missing, a folder, empty, or not an image.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const OIIO::ImageSpec& options = {});
 
-/// OpenImageIO's reason on one line, in parentheses with a blank before; empty when it gave none.
-std::string reason(std::string text);
-
 }  // namespace wrinkle::io

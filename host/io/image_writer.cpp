@@ -13,6 +13,7 @@
 #include "io/image_open.h"
 #include "io/metadata_data.h"
 #include "io/names.h"
+#include "io/reason.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -142,7 +143,12 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, std::vect
         throw Error(fmt::format("cannot write {}: \"{}\" is not a format wrinkle writes; use .exr or .png",
                                 file.string(), extension));
     }
-    if (size.width == 0 || size.height == 0 || channels.empty() || (extension == ".png" && channels.size() > 4)) {
+    constexpr std::size_t most_of_png = 4;
+    if (extension == ".png" && channels.size() > most_of_png) {
+        throw Error(fmt::format("cannot write {}: a PNG holds up to {} channels, these are {}; use .exr", file.string(),
+                                most_of_png, channels.size()));
+    }
+    if (size.width == 0 || size.height == 0 || channels.empty()) {
         throw Error(fmt::format("cannot write {}: {}x{} with {} channels is not a picture", file.string(), size.width,
                                 size.height, channels.size()));
     }

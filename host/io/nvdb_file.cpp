@@ -5,7 +5,6 @@
 #include <nanovdb/util/IO.h>
 
 #include "io/volume_grid.h"
-#include "wrinkle/error.h"
 
 namespace wrinkle::io {
 
@@ -93,8 +92,7 @@ RawVolume read_nvdb(const fs::path& file, std::size_t number) {
     return raw;
 }
 
-void write_nvdb(const fs::path& file, const DenseVolume& volume) {
-    if (volume.channels != 1) throw Error(file.string() + ": vectors can be written as .vdb only");
+void write_nvdb(std::ostream& out, const DenseVolume& volume) {
     nanovdb::GridBuilder<float> builder(
         volume.background, volume.level_set ? nanovdb::GridClass::LevelSet : nanovdb::GridClass::FogVolume);
     const auto value = [&](const nanovdb::Coord& at) {
@@ -123,7 +121,7 @@ void write_nvdb(const fs::path& file, const DenseVolume& volume) {
         map.mVecF[row] = static_cast<float>(map.mVecD[row] = forward[row][3]);
     }
     map.mTaperD = 1, map.mTaperF = 1;
-    nanovdb::io::writeGrid(file.string(), builder.getHandle(map, volume.grid), nanovdb::io::Codec::ZIP);
+    nanovdb::io::writeGrid(out, builder.getHandle(map, volume.grid), nanovdb::io::Codec::ZIP);
 }
 
 }  // namespace wrinkle::io

@@ -9,6 +9,7 @@
 
 #include "io/image_open.h"
 #include "io/packed_normals.h"
+#include "io/reason.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {

@@ -129,6 +129,13 @@ public:
     }
 };
 
+/// Writes to a stream of the caller's, whose errors it sees, with places of grids as in files: openvdb::io::File hides
+/// a full disk, openvdb::io::Stream leaves the places out.
+class Writer : public openvdb::io::Archive {
+public:
+    using Archive::write;
+};
+
 }  // namespace
 
 std::uint32_t newest_vdb() { return openvdb::OPENVDB_FILE_VERSION; }
@@ -164,7 +171,7 @@ RawVolume read_vdb(const fs::path& file, const std::string& name, bool voxels) {
     return raw;
 }
 
-void write_vdb(const fs::path& file, const DenseVolume& volume) {
+void write_vdb(std::ostream& out, const DenseVolume& volume) {
     openvdb::initialize();
     const openvdb::GridBase::Ptr grid = volume.channels == 3 ? make_grid<Vec3s>(volume) : make_grid<float>(volume);
     openvdb::Mat4d m;
@@ -177,9 +184,7 @@ void write_vdb(const fs::path& file, const DenseVolume& volume) {
                        : volume.channels == 3 ? openvdb::GRID_UNKNOWN
                                               : openvdb::GRID_FOG_VOLUME);
     grid->setSaveFloatAsHalf(volume.half);
-    openvdb::io::File out(file.string());
-    out.write({grid});
-    out.close();
+    Writer().write(out, openvdb::GridPtrVec{grid}, true);
 }
 
 }  // namespace wrinkle::io

@@ -1,12 +1,19 @@
 #include "io/volume_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+#include <ext/stdio_filebuf.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <new>
 
+#include "io/atomic_file.h"
+#include "io/names.h"
+#include "io/reason.h"
 #include "io/volume_grid.h"
 #include "scene/problems.h"
 #include "wrinkle/error.h"
@@ -77,11 +84,13 @@ bool is_nano(const fs::path& file) {
     return nano;
 }
 
-/// A library's text without the name of its exception: "IoError: no space" says "no space".
-std::string reason(const std::string& text) {
+/// A library's text without the name of its exception: "IoError: no space" says "no space". A single word is a name
+/// of its own insides.
+std::string readable(const std::string& text) {
     const std::size_t colon = text.find(": ");
     const bool named = colon != std::string::npos && text.find(' ') > colon;
-    return named ? text.substr(colon + 2) : text;
+    const std::string why = io::reason(named ? text.substr(colon + 2) : text);
+    return why.find(' ', 1) == std::string::npos ? "" : why;
 }
 
 /// Runs `work`; what the libraries throw becomes the Error `what` of the file and the reason.
@@ -90,16 +99,16 @@ auto told(const fs::path& file, const char* what, const Work& work) {
     try {
         return work();
     } catch (const Error&) { throw; } catch (const std::bad_alloc&) {
-        throw Error(fmt::format(fmt::runtime(what), file.string(), "out of memory"));
+        throw Error(fmt::format(fmt::runtime(what), file.string(), " (out of memory)"));
     } catch (const std::exception& error) {
-        throw Error(fmt::format(fmt::runtime(what), file.string(), reason(error.what())));
+        throw Error(fmt::format(fmt::runtime(what), file.string(), readable(error.what())));
     }
 }
 
 /// The grid and its name.
 std::pair<RawVolume, std::string> read_grid(const fs::path& file, const std::string& wanted, bool voxels) {
     const bool nano = is_nano(file);
-    return told(file, "{}: cannot be read ({}); it may be truncated or damaged", [&] {
+    return told(file, "{}: cannot be read{}; it may be truncated or damaged", [&] {
         const std::vector<ListedGrid> grids = nano ? io::list_nvdb(file) : io::list_vdb(file);
         const std::size_t chosen = choose(file, grids, wanted);
         return std::pair(nano ? io::read_nvdb(file, chosen) : io::read_vdb(file, grids[chosen].name, voxels),
@@ -175,7 +184,7 @@ Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
 Volume load_volume(const fs::path& file, const std::string& grid) {
     auto [raw, name] = read_grid(file, grid, true);
     VolumeInfo info = info_of(file, name, raw);
-    return told(file, "{}: cannot be used ({})", [&] { return assemble(file, std::move(raw), std::move(info)); });
+    return told(file, "{}: cannot be used{}", [&] { return assemble(file, std::move(raw), std::move(info)); });
 }
 
 VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
@@ -183,19 +192,30 @@ VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
     return info_of(file, name, raw);
 }
 
+void check_volume_name(const fs::path& file, int channels) {
+    const std::string extension = io::lower(file.extension().string());
+    if (extension != ".vdb" && extension != ".nvdb")
+        throw Error(fmt::format("cannot write {}: \"{}\" is no extension of a volume file; use .vdb or .nvdb",
+                                file.string(), file.extension().string()));
+    if (extension == ".nvdb" && channels != 1)
+        throw Error(fmt::format("cannot write {}: vectors can be written as .vdb only", file.string()));
+}
+
 void save_volume(const fs::path& file, const DenseVolume& volume) {
-    fs::path partial = file;
-    partial += ".partial";  // renamed when it is complete
-    try {
-        told(file, "{}: cannot be written ({})", [&] {
-            file.extension() == ".nvdb" ? io::write_nvdb(partial, volume) : io::write_vdb(partial, volume);
-            fs::rename(partial, file);
-        });
-    } catch (const Error&) {
-        std::error_code ignored;
-        fs::remove(partial, ignored);
-        throw;
-    }
+    check_volume_name(file, volume.channels);
+    const bool nano = io::lower(file.extension().string()) == ".nvdb";
+    constexpr std::size_t kBlock = std::size_t{1} << 20;
+    io::AtomicFile complete(file);
+    __gnu_cxx::stdio_filebuf<char> buffer(::dup(complete.descriptor()), std::ios::out | std::ios::binary, kBlock);
+    std::ostream out(&buffer);
+    out.exceptions(std::ios::failbit | std::ios::badbit);
+    told(file, "cannot write {}{}", [&] {
+        try {
+            nano ? io::write_nvdb(out, volume) : io::write_vdb(out, volume);
+            out.flush();
+        } catch (const std::ios::failure&) { throw Error(complete.failure(std::strerror(errno))); }
+    });
+    complete.commit();
 }
 
 }  // namespace wrinkle

@@ -27,7 +27,11 @@ struct DenseVolume {
     Mat4 world_from_index{};
 };
 
-/// Writes an OpenVDB or, for the extension .nvdb, a NanoVDB file, pruned and compressed.
+/// Throws Error unless a volume of so many channels can be written under this name: .vdb, or .nvdb for one channel.
+void check_volume_name(const std::filesystem::path& file, int channels);
+
+/// Writes an OpenVDB or, for the extension .nvdb, a NanoVDB file, pruned and compressed, all or nothing. Throws Error
+/// for another extension, a folder that is not there or not writable, and a full disk.
 void save_volume(const std::filesystem::path& file, const DenseVolume& volume);
 
 }  // namespace wrinkle

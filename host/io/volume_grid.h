@@ -1,5 +1,7 @@
 #pragma once
 
+#include <iosfwd>
+
 #include "io/volume_file.h"
 
 /// What the readers and writers of the two volume formats share with volume_file.cpp.
@@ -52,13 +54,15 @@ void add_leaf(RawVolume& raw, const Leaf& leaf) {
 std::vector<ListedGrid> list_vdb(const std::filesystem::path& file);
 /// Without `voxels` only the transform and the type are read.
 RawVolume read_vdb(const std::filesystem::path& file, const std::string& grid, bool voxels);
-void write_vdb(const std::filesystem::path& file, const DenseVolume& volume);
+/// The stream throws when it cannot be written.
+void write_vdb(std::ostream& out, const DenseVolume& volume);
 /// The newest file version that can be read.
 std::uint32_t newest_vdb();
 
 std::vector<ListedGrid> list_nvdb(const std::filesystem::path& file);
 RawVolume read_nvdb(const std::filesystem::path& file, std::size_t number);
-void write_nvdb(const std::filesystem::path& file, const DenseVolume& volume);
+/// The same; numbers, not vectors.
+void write_nvdb(std::ostream& out, const DenseVolume& volume);
 /// The version of NanoVDB files that can be read: another major one cannot.
 std::uint32_t nvdb_version();
 

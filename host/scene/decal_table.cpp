@@ -2,9 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 
+#include "io/atomic_file.h"
 #include "scene/decal_columns.h"
 #include "scene/files.h"
 #include "scene/problems.h"
@@ -146,9 +146,9 @@ void save_decals(const std::filesystem::path& file, const std::vector<Projector>
         text += '\n';
         for (const DecalColumn* column : used) text += (column == used.front() ? "" : ",") + column->write(row);
     }
-    std::ofstream out(file, std::ios::binary);
-    out << text << '\n';
-    if (!out.flush()) throw Error(fmt::format("cannot write {}", file.string()));
+    io::AtomicFile out(file);
+    out.write(text + '\n');
+    out.commit();
 }
 
 }  // namespace wrinkle

@@ -50,8 +50,34 @@ TEST(Bake, BadVolumesAreToldWithTheirLayer) {
     write_text(place / "cut.vdb", good.substr(0, good.size() / 2));
     place.write_scene(volume("cut.vdb"));
     expect_failed(place.run("run scene.toml -o out"), {"cut.vdb", "it may be truncated or damaged"});
-    expect_failed(place.run("bake-volume noise -o no/such/n.vdb"), {"no/such/n.vdb", "cannot be written"});
+    expect_failed(place.run("bake-volume noise -o no/such/n.vdb"), {"cannot write no/such/n.vdb", "no folder no/such"});
     expect_failed(place.run("bake-volume clouds -o n.vdb"), {"clouds"});
+}
+
+TEST(Bake, NamesThatDoNotFitAreRefused) {
+    const Workplace place;
+    expect_failed(place.run("bake-volume noise -o g.txt"), {"g.txt", "use .vdb or .nvdb"});
+    expect_failed(place.run("bake-volume golden-gradient -o g.nvdb"), {"g.nvdb", "vectors", ".vdb only"});
+    expect_failed(place.run("bake-frame --width 48 --height 32 -o g.png"), {"g.png", "use .exr"});
+    EXPECT_TRUE(place.files("").empty());
+    EXPECT_EQ(place.run("bake-volume golden --size 16 -o G.NVDB").code, 0);
+    EXPECT_EQ(read_text(place / "G.NVDB").substr(0, 7), "NanoVDB");
+}
+
+TEST(Bake, AFullDiskLeavesTheOldFilesAsTheyWere) {
+    const Workplace place;
+    const std::vector<std::string> names{"g.camera.json", "g.exr", "g.nvdb", "g.vdb"};
+    for (const std::string& name : names) write_text(place / name, "old");
+    for (const auto& [arguments, file] :
+         std::map<std::string, std::string>{{"bake-volume golden --size 32 -o g.vdb", "g.vdb"},
+                                            {"bake-volume golden --size 32 -o g.nvdb", "g.nvdb"},
+                                            {"bake-frame --width 96 --height 64 -o g.exr", "g.exr"}})
+        for (const int blocks : {1, 10}) {  // of 512 bytes
+            expect_failed(place.run(arguments, fmt::format("ulimit -f {};", blocks)),
+                          {"cannot write " + file, "File too large", "the old file is unchanged"});
+            EXPECT_EQ(place.files(""), names);
+            for (const std::string& name : names) EXPECT_EQ(read_text(place / name), "old") << arguments;
+        }
 }
 
 }  // namespace
