@@ -8,9 +8,11 @@
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "device/kernel_sources.h"
+#include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "run/pass_impl.h"
 #include "run/render.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::cli {
 
@@ -18,7 +20,7 @@ namespace {
 
 struct ExplainArguments {
     std::filesystem::path scene;
-    int frame = 1;
+    std::optional<int> frame;
     bool full = false, no_source = false, json = false;
 };
 
@@ -32,6 +34,15 @@ std::string join(const std::vector<std::string>& names) {
 std::optional<BinReport> bins_of(const Scene& scene, const Frame& frame, const Plan& plan, int number) {
     if (plan.tables.empty()) return std::nullopt;
     return bin_report(scene, frame, number);
+}
+
+/// A camera that "wrinkle run" refuses is told of; the plan is the same.
+void warn_of_camera(const Scene& scene, int number) {
+    const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+    const FrameCamera camera = read_frame_camera(scene.camera, reader, number);
+    try {
+        check_residual(camera, scene.camera.max_residual, reader);
+    } catch (const Error& error) { fmt::print(stderr, "wrinkle: warning: {}\n", error.what()); }
 }
 
 void print_bins(const Plan& plan, const BinReport& bins) {
@@ -69,11 +80,14 @@ void print_json(const Plan& plan, double operations, const std::optional<BinRepo
 
 void explain(const ExplainArguments& arguments) {
     const Scene scene = load_scene(arguments.scene);
-    const Frame frame = describe_frame(scene, arguments.frame);
+    check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
+    const int number = arguments.frame.value_or(0);
+    const Frame frame = describe_frame(scene, number);
+    warn_of_camera(scene, number);
     const Plan plan = plan_for(scene, frame, {});
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
-    const std::optional<BinReport> bins = bins_of(scene, frame, plan, arguments.frame);
+    const std::optional<BinReport> bins = bins_of(scene, frame, plan, number);
     if (arguments.json) {
         print_json(plan, operations, bins);
         return;
@@ -100,7 +114,7 @@ void add_explain(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("explain", "Print a scene's plan: stages, channels, expected cost, and the kernel source");
     command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-    command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence")->capture_default_str();
+    command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
     command->add_flag("--full", arguments->full, "print the source with every concept file in it");
     command->add_flag("--no-source", arguments->no_source, "print the plan only");
     command->add_flag("--json", arguments->json, "print as JSON");

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/frame_list.h"
 #include "io/info.h"
+#include "io/names.h"
 
 namespace wrinkle::cli {
 
@@ -90,14 +92,14 @@ void print_json(const GBufferInfo& info) {
 
 struct InfoArguments {
     std::filesystem::path file, camera;
-    int frame = 1;
+    std::optional<int> frame;
     bool json = false;
 };
 
 void info(const InfoArguments& arguments) {
     GBufferSource source;
     std::optional<CameraSource> camera;
-    if (arguments.file.extension() == ".toml") {
+    if (io::lower(arguments.file.extension().string()) == ".toml") {
         const Scene scene = load_scene(arguments.file);
         source = scene.gbuffer;
         camera = scene.camera;
@@ -105,7 +107,8 @@ void info(const InfoArguments& arguments) {
         source.file = arguments.file;
     }
     if (!arguments.camera.empty()) camera.emplace().file = arguments.camera;
-    const GBufferInfo gathered = gather_info(source, camera, arguments.frame);
+    check_frame_pattern(frame_files(source, camera), "--frame", arguments.frame.has_value());
+    const GBufferInfo gathered = gather_info(source, camera, arguments.frame.value_or(0));
     if (arguments.json)
         print_json(gathered);
     else
@@ -126,8 +129,7 @@ void add_info(CLI::App& app) {
         ->add_option("--camera", arguments->camera,
                      "camera file (JSON with view and proj); else the scene's, FILE.camera.json or the header")
         ->type_name("FILE");
-    command->add_option("--frame", arguments->frame, "which frame, where the name has #### or %04d")
-        ->capture_default_str();
+    command->add_option("--frame", arguments->frame, "which frame, where the name has #### or %04d");
     command->add_flag("--json", arguments->json, "print as JSON");
     command->callback([arguments] { info(*arguments); });
 }

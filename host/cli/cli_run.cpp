@@ -77,13 +77,15 @@ void print_json(const RenderReport& report) {
 }
 
 void run(const RunArguments& arguments) {
-    const Scene scene = load_scene(arguments.scene);
     RenderOptions options;
+    if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+    const Scene scene = load_scene(arguments.scene);
     options.directory = arguments.directory;
     options.device = arguments.device;
     options.repeat = arguments.repeat;
-    if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-    check_frame_pattern(scene, arguments.frames);
+    const auto files = frame_files(scene.gbuffer, scene.camera);
+    check_frame_pattern(files, "--frames", !options.frames.empty());
+    check_frames_exist(files, options.frames);
     if (arguments.threads > 0) {
         setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);  // before PoCL starts
         set_image_threads(arguments.threads);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <sstream>
@@ -16,7 +17,8 @@ namespace {
 constexpr std::size_t kMostFrames = 1'000'000;
 
 [[noreturn]] void refuse(const std::string& part) {
-    throw Error(fmt::format("--frames: \"{}\" is no frame list; write 7, 1-10, 1-100x5, or several with commas", part));
+    throw CLI::ValidationError(
+        "--frames", fmt::format("\"{}\" is no frame list; write 7, 1-10, 1-100x5, or several with commas", part));
 }
 
 int number(const std::string& text, const std::string& part) {
@@ -48,19 +50,42 @@ std::vector<int> parse_frames(const std::string& text) {
     std::vector<int> sorted = frames;
     std::ranges::sort(sorted);
     if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-        throw Error(fmt::format("--frames: \"{}\" names frame {} twice", text, *twice));
+        throw CLI::ValidationError("--frames", fmt::format("\"{}\" names frame {} twice", text, *twice));
     return frames;
 }
 
-void check_frame_pattern(const Scene& scene, const std::string& frames) {
-    const bool pattern = has_frame_pattern(scene.gbuffer.file);
-    if (pattern && frames.empty())
-        throw Error(fmt::format("{} holds a place for a frame number: give --frames", scene.gbuffer.file.string()));
-    if (!pattern && !frames.empty())
+std::vector<std::filesystem::path> frame_files(const GBufferSource& gbuffer,
+                                               const std::optional<CameraSource>& camera) {
+    std::vector<std::filesystem::path> files{gbuffer.file};
+    if (camera && !camera->file.empty()) files.push_back(camera->file);
+    return files;
+}
+
+void check_frame_pattern(const std::vector<std::filesystem::path>& files, const char* option, bool given) {
+    const auto pattern = std::ranges::find_if(files, has_frame_pattern);
+    if (pattern != files.end() && !given)
+        throw Error(fmt::format("{} holds a place for a frame number: give {}", pattern->string(), option));
+    if (pattern == files.end() && given)
         throw Error(
-            fmt::format("--frames needs a place for the number in the scene's [gbuffer] file, such as "
-                        "frame.####.exr; it is {}",
-                        scene.gbuffer.file.string()));
+            fmt::format("{} needs a place for the number in the frame's file name, such as frame.####.exr; it "
+                        "is {}",
+                        option, files.front().string()));
+}
+
+void check_frames_exist(const std::vector<std::filesystem::path>& files, const std::vector<int>& frames) {
+    constexpr std::size_t most_named = 5;
+    std::vector<std::string> missing;
+    for (const int frame : frames)
+        for (const std::filesystem::path& file : files) {
+            std::error_code code;
+            if (const auto path = frame_path(file, frame); !std::filesystem::exists(path, code))
+                missing.push_back(path.string());
+        }
+    if (missing.empty()) return;
+    const std::size_t named = std::min(missing.size(), most_named);
+    throw Error(fmt::format("no such file: {}{}; nothing was evaluated",
+                            fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+                            missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : ""));
 }
 
 }  // namespace wrinkle::cli

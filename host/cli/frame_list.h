@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,10 +9,16 @@
 
 namespace wrinkle::cli {
 
-/// "1-10", "1-100x5", "3,7,9-12": every number named, in order, each once. Throws Error.
+/// "1-10", "1-100x5", "3,7,9-12": every number named, in order, each once. Throws CLI::ValidationError.
 std::vector<int> parse_frames(const std::string& text);
 
-/// Throws Error when frames are asked of a scene without a frame pattern, or the other way round.
-void check_frame_pattern(const Scene& scene, const std::string& frames);
+/// The files whose names may hold a place for the frame number: the frame's, and its camera's where there is one.
+std::vector<std::filesystem::path> frame_files(const GBufferSource& gbuffer, const std::optional<CameraSource>& camera);
+
+/// Throws Error when one of `files` needs a frame number and `option` was not given, or it was and none needs one.
+void check_frame_pattern(const std::vector<std::filesystem::path>& files, const char* option, bool given);
+
+/// Throws Error, naming the files, when some of the frames are missing.
+void check_frames_exist(const std::vector<std::filesystem::path>& files, const std::vector<int>& frames);
 
 }  // namespace wrinkle::cli

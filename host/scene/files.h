@@ -2,14 +2,10 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 namespace wrinkle::scene {
 
-/// Whether a name stands for many frames: a run of #, or %d with an optional width (%04d).
-bool is_frame_pattern(std::string_view name);
-
-/// Why `file` cannot be an input, or nothing. With `pattern`, a name of many frames needs only its folder.
+/// Why `file` cannot be an input, or nothing. With `pattern`, a frame pattern (io/frame_path.h) needs only its folder.
 std::string why_not_readable(const std::filesystem::path& file, bool pattern);
 
 /// The whole file. Throws Error when there is none, it is a folder, or it cannot be read.

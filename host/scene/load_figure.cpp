@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/frame_path.h"
 #include "scene/figure.h"
 #include "scene/readers.h"
 
@@ -50,7 +51,7 @@ void check_pictures(Table& root, const Figure& figure) {
 Figure load_figure(const std::filesystem::path& file) {
     using namespace scene;
     const toml::table values = parse_scene_file(file);
-    Document document{file.parent_path(), true, Problems(file.filename().string())};
+    Document document{file.parent_path(), true, Problems(file.string())};
     Table root(document, values, "the figure", 1);
     Figure out;
     out.scene.file = file;
@@ -62,6 +63,10 @@ Figure load_figure(const std::filesystem::path& file) {
                               "needs a [[panel]], at least caption = \"...\" and layers = [] (to evaluate a scene, "
                               "use \"wrinkle run\")");
     check_pictures(root, out);
+    if (has_frame_pattern(out.scene.gbuffer.file) || has_frame_pattern(out.scene.camera.file))
+        document.problems.add(root.line_of("gbuffer"),
+                              "a figure shows one frame: name its files in [gbuffer] and [camera] without a place for "
+                              "a number");
     root.finish();
     document.problems.throw_if_any();
     return out;

@@ -23,8 +23,11 @@ TEST(Commands, HelpAndVersion) {
              {"", "command"}, {"paint", "paint"}, {"run", "SCENE"}, {"run a.toml --fast", "--fast"}}) {
         const Ran ran = place.run(arguments);
         EXPECT_EQ(ran.code, 2) << arguments;
-        expect_failed(ran, {named, "--help"});
+        expect_failed(ran, {named, arguments.starts_with("run") ? "\"wrinkle run --help\"" : "\"wrinkle --help\""});
     }
+    for (const char* malformed :
+         {"run a.toml --frames abc", "run a.toml --frames 3,3", "run a.toml --repeat 0", "info a.exr --frame one"})
+        EXPECT_EQ(place.run(malformed).code, 2) << malformed;
 }
 
 TEST(Commands, Devices) {
@@ -46,10 +49,14 @@ TEST(Commands, Info) {
     EXPECT_LT(json.at("camera").at("residual_pixels").at("median").get<double>(), 0.1);
 
     place.write_scene("", file + "\"\nroles = { object = \"none\" }  # ");
-    const Ran scene = place.run("info --frame 7 scene.toml");
+    const Ran scene = place.run("info scene.toml");
     EXPECT_EQ(scene.code, 0) << scene.err;
     expect_mentions(scene.out, {"120 x 68", "reproject", "lacks object"});
     EXPECT_EQ(text.out.find("lacks object"), std::string::npos);
+    fs::rename(place / "scene.toml", place / "SCENE.TOML");
+    EXPECT_EQ(place.run("info SCENE.TOML").out, scene.out);
+    fs::copy_file(data_folder / "gbuffer/small.exr", place / "shot#2.exr");
+    expect_mentions(place.run("info 'shot#2.exr'").out, {"shot#2.exr: 120 x 68"});
 }
 
 TEST(Commands, Explain) {
@@ -64,6 +71,12 @@ TEST(Commands, Explain) {
     const auto json = nlohmann::json::parse(place.run("explain --json scene.toml").out);
     EXPECT_EQ(json.at("sections").size(), 5u);
     EXPECT_EQ(json.at("sections")[1].at("title"), "constant \"tilt\"");
+    EXPECT_EQ(text.err, "");
+    place.write_scene(tilt, Workplace::data_file("gbuffer/small.exr"),
+                      "eye = [0, -6, 4]\ntarget = [0, 0, 0]\nfov = 40");
+    const Ran warned = place.run("explain scene.toml");
+    EXPECT_EQ(warned.code, 0);
+    expect_mentions(warned.err, {"wrinkle: warning: ", "small.exr", "pixels away"});
 }
 
 TEST(Commands, RunWritesPictures) {
@@ -133,11 +146,29 @@ TEST(Commands, RunOverASequence) {
 
     expect_failed(place.run("run scene.toml -o other"), {"shot.####.exr", "--frames"});
     expect_failed(place.run("run scene.toml -o other --frames 5"), {"shot.0005.exr"});
+    fs::remove(place / "cam.0004.json");
+    expect_failed(place.run("run scene.toml -o other --frames 3-5"),
+                  {"cam.0004.json", "shot.0005.exr", "cam.0005.json"});
     expect_failed(place.run("run scene.toml -o other --frames 7-3"), {"7-3"});
     expect_failed(place.run("run scene.toml -o other --frames 3,3"), {"twice"});
     place.write_scene(tilt);
     expect_failed(place.run("run scene.toml -o other --frames 1"), {"--frames", "####"});
     EXPECT_FALSE(fs::exists(place / "other"));
+}
+
+TEST(Commands, OneFrameOfASequenceHasToBeNamed) {
+    const Workplace place;
+    fs::copy_file(data_folder / "gbuffer/small.exr", place / "shot.0007.exr");
+    place.write_scene(tilt, "shot.####.exr");
+    place.write_scene(tilt, Workplace::data_file("gbuffer/small.exr"),
+                      "file = \"" + Workplace::data_file("gbuffer/small.camera.json") + "\"", "still.toml");
+    for (const std::string command : {"explain", "info", "scatter -o table.csv --count 3"}) {
+        expect_failed(place.run(command + " scene.toml"), {"shot.####.exr", "give --frame"});
+        expect_failed(place.run(command + " still.toml --frame 7"), {"small.exr", "--frame needs"});
+        const Ran ran = place.run(command + " scene.toml --frame 7");
+        EXPECT_EQ(ran.code, 0) << ran.err;
+    }
+    EXPECT_EQ(place.run("info 'shot.####.exr' --frame 7").code, 0);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/io/files.h"
+
 namespace wrinkle {
 namespace {
 
@@ -12,8 +14,19 @@ TEST(FramePath, FillsInTheNumber) {
     EXPECT_EQ(frame_path("b_#.exr", -3), "b_-3.exr");
     EXPECT_EQ(frame_path("shot##/b.###.exr", 1), "shot##/b.001.exr");
     EXPECT_EQ(frame_path("v#2/plain.exr", 1), "v#2/plain.exr");
+    EXPECT_EQ(frame_path("b.%12d.exr", 7), "b.000000000007.exr");
     EXPECT_TRUE(has_frame_pattern("b.####.exr"));
     EXPECT_FALSE(has_frame_pattern("b%.exr"));
+    EXPECT_FALSE(has_frame_pattern("shot##/b.exr"));
+}
+
+TEST(FramePath, AFileOfThatVeryNameWins) {
+    const test::TempFolder folder;
+    const auto file = folder / "shot#2.exr";
+    EXPECT_EQ(frame_path(file, 1), folder / "shot12.exr");
+    test::write_text(file, "");
+    EXPECT_FALSE(has_frame_pattern(file));
+    EXPECT_EQ(frame_path(file, 1), file);
 }
 
 }  // namespace

@@ -103,6 +103,10 @@ colour = 3
         expect_mentions(error.what(), {"nowhere.exr", "bad.toml:6", "left < right", "bad.toml:13", "dnets", "dents",
                                        "caption", "colour", "relight"});
     }
+    write_text(folder / "shot.toml",
+               "panel = [{ caption = \"a\", layers = [], picture = \"normal\" }]\n"
+               "[gbuffer]\nfile = \"shot.####.exr\"\n[camera]\nfrom = \"exr\"\n");
+    expect_mentions(error_of([&] { load_figure(folder / "shot.toml"); }), {"shot.toml:2", "one frame"});
     write_text(folder / "none.toml", "panel = []\n[gbuffer]\nfile = \"bad.toml\"\n[camera]\nfrom = \"exr\"\n");
     EXPECT_THROW(load_figure(folder / "none.toml"), Error);
     const fs::path figure = data_folder / "figures/layering.toml", scene = data_folder / "scenes/noise.toml";

@@ -39,7 +39,7 @@ TEST_F(GoodScene, MappedLayers) {
     ASSERT_EQ(scene.layers.size(), 8u);
     const Layer& plaster = scene.layers[0];
     EXPECT_EQ(plaster.name, "plaster");
-    EXPECT_EQ(plaster.location, "courtyard.toml:15");
+    EXPECT_EQ(plaster.location, (folder_ / "courtyard.toml:15").string());
     EXPECT_EQ(plaster.scale, -0.5);
     EXPECT_EQ(plaster.blend, Blend::subtract);
     EXPECT_FALSE(plaster.footprint);
@@ -300,8 +300,6 @@ proj = [[1.5, 0, 0.1, 0], [0, 2, 0, 0], [0, 0, -1, -0.02], [0, 0, -1, 0]]
               folder_ / "textures/camera.####.json");
     EXPECT_EQ(load("camera.from = \"exr\"\ngbuffer.file = \"frame_%04d.exr\"\n").gbuffer.file,
               folder_ / "frame_%04d.exr");
-    EXPECT_EQ(load("camera.from = \"exr\"\ngbuffer.file = \"shot.####/frame.####.exr\"\n").gbuffer.file,
-              folder_ / "shot.####/frame.####.exr");
 }
 
 TEST_F(GoodScene, RolesByPlane) {
@@ -317,7 +315,7 @@ TEST_F(GoodScene, TablesInLineAndAbsolutePaths) {
              "= \"noise\" },\r\n]\r\n");
     EXPECT_EQ(scene.gbuffer.file, folder_ / "frame.exr");
     ASSERT_EQ(scene.layers.size(), 2u);
-    EXPECT_EQ(scene.layers[1].location, "courtyard.toml:5");
+    EXPECT_EQ(scene.layers[1].location, (folder_ / "courtyard.toml:5").string());
     EXPECT_EQ(scene.layers[1].name, "noise 2");
 }
 

@@ -38,14 +38,17 @@ protected:
     /// `text` after the four lines that every scene needs; its own first line is line 5.
     Scene load_with(const std::string& text) const { return load(frame_ + text); }
 
-    /// The problems of a scene, one a line.
+    /// The problems of a scene, one a line, without the folder before the scene's name.
     std::vector<std::string> problems(const std::string& text) const {
         std::vector<std::string> out;
         try {
             load(text);
         } catch (const Error& error) {
             std::istringstream lines(error.what());
-            for (std::string line; std::getline(lines, line);) out.push_back(line);
+            const std::string here = (folder_ / "").string();
+            EXPECT_EQ(std::string(error.what()).rfind(here + "courtyard.toml:", 0), 0u) << error.what();
+            for (std::string line; std::getline(lines, line);)
+                out.push_back(line.rfind(here, 0) == 0 ? line.substr(here.size()) : line);
         }
         return out;
     }
