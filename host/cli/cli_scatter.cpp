@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
+#include <optional>
 
+#include "cli/checks.h"
 #include "cli/commands.h"
+#include "cli/frame_list.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
@@ -13,21 +17,36 @@ namespace wrinkle::cli {
 
 namespace {
 
+const std::map<std::string, ProjectorShape> kShapes{
+    {"box", ProjectorShape::box}, {"sphere", ProjectorShape::sphere}, {"cone", ProjectorShape::cone}};
+
 struct ScatterArguments {
     std::filesystem::path scene, file = "decals.csv";
-    int frame = 0;
+    std::optional<int> frame;
     ScatterOptions options;
     std::vector<double> size{0.1, 0.2};
     std::vector<std::uint32_t> atlas{1, 1};
+    std::vector<std::string> shapes{"box"};
     bool replace = false;
 };
 
+/// What decals are placed on: the normals, and what the scene takes its geometry from.
+std::vector<std::string> planes_of(Geometry geometry) {
+    std::vector<std::string> planes{"normal.x", "normal.y", "normal.z"};
+    if (geometry != Geometry::position) planes.emplace_back("depth");
+    if (geometry != Geometry::depth) planes.insert(planes.end(), {"position.x", "position.y", "position.z"});
+    return planes;
+}
+
 void scatter(ScatterArguments arguments) {
     const Scene scene = load_scene(arguments.scene);
-    const Frame frame = describe_frame(scene, arguments.frame);
-    const GBufferReader reader(frame_path(scene.gbuffer.file, arguments.frame), scene.gbuffer);
+    check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
+    const int number = arguments.frame.value_or(0);
+    const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+    check_residual(read_frame_camera(scene.camera, reader, number), scene.camera.max_residual, reader);
+    const Frame frame = describe_frame(scene, number);
     std::map<std::string, std::vector<float>> pixels;
-    for (const char* name : {"depth", "normal.x", "normal.y", "normal.z", "position.x", "position.y", "position.z"})
+    for (const std::string& name : planes_of(scene.gbuffer.geometry))
         if (reader.has_plane(name)) pixels[name].resize(std::size_t{frame.size.width} * frame.size.height);
     std::vector<std::string> names;
     std::vector<float*> into;
@@ -39,6 +58,8 @@ void scatter(ScatterArguments arguments) {
     ScatterOptions& options = arguments.options;
     options.half_size = {arguments.size[0], arguments.size[1]};
     options.atlas = {arguments.atlas[0], arguments.atlas[1]};
+    options.shapes.clear();
+    for (const std::string& shape : arguments.shapes) options.shapes.push_back(kShapes.at(shape));
     if (arguments.replace) options.mode = ProjectorMode::replace;
     const std::vector<Projector> rows = scatter_decals(options, frame, {pixels.begin(), pixels.end()});
     save_decals(arguments.file, rows);
@@ -64,28 +85,32 @@ void add_scatter(CLI::App& app) {
     command->add_option("--seed", options.seed, "the same seed gives the same table")->capture_default_str();
     command->add_option("--spacing", options.spacing, "least distance of centres, metres")
         ->capture_default_str()
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     command->add_option("--size", arguments->size, "half size, from and to, metres")
         ->expected(2)
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command->add_flag("--pixels", options.pixels, "--spacing and --size are in pixels");
     command->add_option("--depth", options.depth, "metres for a height of 1, as a share of the half size")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(finite());
     command->add_option("--thickness", options.thickness, "half size along the normal, as a share of the half size")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command->add_option("--textures", options.textures, "textures to draw from")
         ->capture_default_str()
         ->check(CLI::Range(1, 1'000'000));
     command->add_option("--atlas", arguments->atlas, "columns and rows of each texture; a decal gets one field")
         ->expected(2)
         ->check(CLI::Range(1, 10'000));
-    command->add_option("--shapes", options.shapes, "shapes to draw from: box, sphere, cone")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, ProjectorShape>{
-            {"box", ProjectorShape::box}, {"sphere", ProjectorShape::sphere}, {"cone", ProjectorShape::cone}}));
+    std::vector<std::string> shapes;
+    for (const auto& [name, shape] : kShapes) shapes.push_back(name);
+    command->add_option("--shapes", arguments->shapes, "shapes to draw from: box, sphere, cone")
+        ->type_name("SHAPE")
+        ->capture_default_str()
+        ->check(one_of(shapes));
     command->add_flag("--replace", arguments->replace, "decals replace those before them instead of adding up");
-    command->add_option("--opacity", options.opacity, "of each")->capture_default_str()->check(CLI::Range(0.0, 1.0));
+    command->add_option("--opacity", options.opacity, "of each")->capture_default_str()->check(zero_to_one());
     command->callback([arguments] { scatter(*arguments); });
 }
 

@@ -45,7 +45,9 @@ int main(int argc, char** argv) {
                 "A command (run, info, explain, scatter, eval, figures, bake-volume, bake-frame, devices or bench)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle --help\" for what it can do.\n", error.what());
+        const auto used = app.get_subcommands();
+        const std::string command = used.empty() ? "" : used.front()->get_name() + " ";
+        fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle {}--help\" for what it can do.\n", error.what(), command);
         return 2;
     } catch (const wrinkle::Error& error) {
         fmt::print(stderr, "wrinkle: {}\n", error.what());

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <ranges>
 #include <unordered_map>
 
 #include "scene/vec.h"
@@ -72,11 +73,13 @@ public:
     Pixels(const Frame& frame, const HostPlanes& planes)
         : frame_(frame), rays_(pinhole_rays(frame.camera, frame.size)) {
         for (const char* name : {"normal.x", "normal.y", "normal.z"}) normal_.push_back(plane(planes, name));
-        if (planes.contains("depth") && rays_)
+        if (planes.contains("depth") && rays_) {
             depth_ = plane(planes, "depth");
-        else
-            for (const char* name : {"position.x", "position.y", "position.z"})
-                position_.push_back(plane(planes, name));
+            return;
+        }
+        if (!planes.contains("position.x"))
+            throw Error("scattering decals needs a depth pass under a pinhole camera, or a position pass");
+        for (const char* name : {"position.x", "position.y", "position.z"}) position_.push_back(plane(planes, name));
     }
 
     std::optional<Surface> at(std::size_t i) const {
@@ -169,6 +172,9 @@ std::vector<Projector> scatter_decals(const ScatterOptions& options, const Frame
         row.mode = options.mode;
         row.opacity = options.opacity;
     }
+    const auto shows_surface = [&](std::size_t i) { return pixels.at(i).has_value(); };
+    if (rows.empty() && std::ranges::none_of(std::views::iota(std::size_t{0}, count), shows_surface))
+        throw Error("no pixel of the frame shows a surface, with a normal and a depth or position, to place decals on");
     return rows;
 }
 

@@ -26,7 +26,8 @@ struct ScatterOptions {
 
 /// Places decals on the surface that a G-buffer shows: centres are a Poisson disk sample of its pixels, drawn by the
 /// seed, axes stand on the normals, turned at random about them. The same options and planes give the same rows on
-/// every machine. Needs depth under a pinhole camera, or position; and normal.
+/// every machine. Needs depth under a pinhole camera, or position; and normal. Throws Error without them, or when no
+/// pixel shows a surface.
 std::vector<Projector> scatter_decals(const ScatterOptions& options, const Frame& frame, const HostPlanes& planes);
 
 }  // namespace wrinkle
