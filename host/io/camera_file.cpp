@@ -1,6 +1,8 @@
 #include "io/camera_file.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 #include "io/camera_json.h"
 #include "io/frame_path.h"
@@ -10,17 +12,27 @@
 namespace wrinkle {
 namespace {
 
+std::string why_no_camera(const Metadata& header) {
+    const auto is_bad = [](double value) { return !std::isfinite(value); };
+    for (const char* name : {"worldToNDC", "worldToScreen", "worldToCamera", "cameraTransform"})
+        if (const auto matrix = header.matrix(name))
+            if (std::ranges::any_of(*matrix, [&](const auto& row) { return std::ranges::any_of(row, is_bad); }))
+                return fmt::format("{} holds numbers that are not finite", name);
+    for (const char* name : {"worldToNDC", "worldToScreen"})
+        if (header.matrix(name)) return fmt::format("{} is no projection of the world onto the picture", name);
+    if (header.matrix("worldToCamera") || header.matrix("cameraTransform"))
+        return "where it stands, but neither worldToNDC nor a field of view";
+    return "neither worldToNDC, worldToCamera nor cameraTransform";
+}
+
 FrameCamera camera_of_header(const GBufferReader& reader, std::span<const PositionSample> samples) {
     const auto& header = reader.metadata();
     if (auto best = io::best_header_camera(header, reader.size(), reader.roles().writer, samples)) {
         return {best->camera, "header: " + best->reading, {}, {}};
     }
-    const bool placed = header.matrix("worldToCamera") || header.matrix("cameraTransform");
     throw Error(
         fmt::format("{}: the header has no camera: {}; give [camera] file, view and proj, or eye, target and fov",
-                    reader.path().string(),
-                    placed ? "where it stands, but neither worldToNDC nor a field of view"
-                           : "neither worldToNDC, worldToCamera nor cameraTransform"));
+                    reader.path().string(), why_no_camera(header)));
 }
 
 FrameCamera camera_of(const CameraSource& source, const GBufferReader& reader, int frame,
@@ -31,10 +43,8 @@ FrameCamera camera_of(const CameraSource& source, const GBufferReader& reader, i
         return {io::read_camera_json(file, size), file.string(), {}, {}};
     }
     if (source.exr) return camera_of_header(reader, samples);
-    if (source.inline_camera) {
-        io::check_matrices(*source.inline_camera, "[camera]");
-        return {*source.inline_camera, "view and proj of the scene", {}, {}};
-    }
+    if (source.inline_camera)
+        return {io::checked_camera(*source.inline_camera, "[camera]"), "view and proj of the scene", {}, {}};
     if (source.look_at) {
         const auto& [eye, target, up, fov_y] = *source.look_at;
         const double aspect = static_cast<double>(size.width) / size.height;

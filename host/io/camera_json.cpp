@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "scene/problems.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
@@ -20,9 +21,18 @@ json parse(const std::filesystem::path& file) {
     if (!stream || std::filesystem::is_directory(file, code)) {
         throw Error(fmt::format("{}: cannot be read", file.string()));
     }
+    const std::string content{std::istreambuf_iterator<char>(stream), {}};
     try {
-        auto value = json::parse(stream);
+        auto value = json::parse(content);
         if (value.is_object()) return value;
+    } catch (const json::out_of_range& error) {
+        const std::string text = error.what();  // "[json.exception...] number overflow parsing '1e999'"
+        const auto quote = text.find('\''), end = text.rfind('\'');
+        const std::string number = quote < end ? text.substr(quote + 1, end - quote - 1) : "";
+        const auto place =
+            content.begin() + static_cast<std::ptrdiff_t>(std::min(content.find(number), content.size()));
+        throw Error(fmt::format("{}: not a camera file: a number at line {} is out of range: {}", file.string(),
+                                1 + std::count(content.begin(), place, '\n'), scene::quote(number)));
     } catch (const json::exception& error) {
         const std::string text = error.what();  // "[json.exception...] parse error at line 3, column 5: ..."
         const auto at = text.find("at line");
@@ -75,7 +85,16 @@ void check_aspect(const json& camera, Size frame, const std::filesystem::path& f
 
 }  // namespace
 
-void check_matrices(const Camera& camera, const std::string& name) {
+bool settle_last_row(Mat4& view) {
+    constexpr double rounding = 1e-6;  // products of float matrices
+    const std::array<double, 4> wanted{0, 0, 0, 1};
+    for (std::size_t j = 0; j < 4; ++j)
+        if (!(std::abs(view[3][j] - wanted[j]) <= rounding)) return false;
+    view[3] = wanted;
+    return true;
+}
+
+Camera checked_camera(Camera camera, const std::string& name) {
     constexpr double rigid = 1e-3;  // float matrices printed with few digits
     for (const auto* m : {&camera.view, &camera.proj})
         for (const auto& row : *m)
@@ -85,10 +104,10 @@ void check_matrices(const Camera& camera, const std::string& name) {
                     fmt::format("{}: {} holds a number that is not finite", name, m == &camera.view ? "view" : "proj"));
             }
     const auto& v = camera.view;
-    if (v[3] != std::array<double, 4>{0, 0, 0, 1}) {
+    if (!settle_last_row(camera.view)) {
         const bool looks_transposed = v[0][3] == 0 && v[1][3] == 0 && v[2][3] == 0;
         throw Error(
-            fmt::format("{}: the last row of view is not 0 0 0 1{}", name,
+            fmt::format("{}: the last row of view is {}, not 0 0 0 1{}", name, fmt::join(v[3], " "),
                         looks_transposed ? "; it looks transposed: matrices are rows and act on column vectors" : ""));
     }
     for (std::size_t i = 0; i < 3; ++i)
@@ -100,12 +119,12 @@ void check_matrices(const Camera& camera, const std::string& name) {
     try {
         inverse(camera.proj);
     } catch (const Error&) { throw Error(fmt::format("{}: proj cannot be inverted", name)); }
+    return camera;
 }
 
 Camera read_camera_json(const std::filesystem::path& file, Size frame_size) {
     const auto value = parse(file);
-    const Camera camera{matrix(value, "view", file), matrix(value, "proj", file)};
-    check_matrices(camera, file.string());
+    const Camera camera = checked_camera({matrix(value, "view", file), matrix(value, "proj", file)}, file.string());
     check_aspect(value, frame_size, file);
     return camera;
 }

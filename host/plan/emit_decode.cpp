@@ -33,7 +33,13 @@ GeometryText geometry_text(const Emitter& emitter) {
                 : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
                                       : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));"};
     }
-    emitter.need("the G-buffer's geometry (depth or position)", {"position.x", "position.y", "position.z"});
+    const std::string file = emitter.scene.gbuffer.file.string(), here = file.empty() ? "" : file + ": ";
+    if (wanted == Geometry::automatic && !emitter.has("depth") && !emitter.has("position.x"))
+        emitter.need(here + "geometry, by a depth or a position pass,", {"depth"});
+    emitter.need(here + (wanted == Geometry::automatic && emitter.has("depth")
+                             ? "geometry under a camera that its depth does not serve"
+                             : "geometry from positions"),
+                 {"position.x", "position.y", "position.z"});
     return {{"position.x", "position.y", "position.z"},
             "wr_valid_position(px, py, pz)",
             "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));"};

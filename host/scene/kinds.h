@@ -44,22 +44,18 @@ const Kind<T>* choose_kind(Table& table, std::span<const Kind<T>> kinds) {
     return index ? &kinds[*index] : nullptr;
 }
 
-/// Reads what `kind` knows and reports every other key. Without a kind, keys that any kind knows pass.
+/// Reads what `kind` knows and reports every other key. Without a kind nobody can tell which keys are mistakes.
 template <class T>
 void read_as_kind(Table& table, std::span<const Kind<T>> kinds, const Kind<T>* kind, T& out) {
-    if (kind) {
-        kind->read(table, out);
-    } else {
-        for (const Kind<T>& any : kinds)
-            for (const std::string& key : keys_of(any)) table.know(key);
-    }
+    if (!kind) return;
+    kind->read(table, out);
     table.finish([&](const std::string& key) -> std::string {
         std::vector<std::string> owners;
         for (const Kind<T>& other : kinds) {
             const std::vector<std::string> keys = keys_of(other);
             if (std::find(keys.begin(), keys.end(), key) != keys.end()) owners.emplace_back(other.name);
         }
-        if (!kind || owners.empty()) return {};
+        if (owners.empty()) return {};
         return fmt::format("does not belong to kind {} but to {}; known keys: {}", quote(kind->name),
                            quote_list(owners), fmt::join(table.known_keys(), ", "));
     });

@@ -54,7 +54,12 @@ void require_table(Table& root, const char* key, const char* example) {
 }  // namespace
 
 toml::table parse_scene_file(const std::filesystem::path& file) {
-    const std::string text = read_text(file), name = file.filename().string();
+    const std::string text = read_text(file), name = file.string();
+    if (text.find('\0') != std::string::npos)
+        throw Error(
+            fmt::format("{}: is no text, so no scene (TOML); if it is an image, \"wrinkle info\" tells what it "
+                        "holds",
+                        name));
     try {
         toml::table values = toml::parse(std::string_view(text));
         if (!values.empty()) return values;
@@ -79,7 +84,7 @@ void read_scene(Table& root, Scene& out) {
 
 Scene load_scene(const std::filesystem::path& file) {
     const toml::table values = scene::parse_scene_file(file);
-    scene::Document document{file.parent_path(), true, scene::Problems(file.filename().string())};
+    scene::Document document{file.parent_path(), true, scene::Problems(file.string())};
     scene::Table root(document, values, "the scene", 1);
     Scene out;
     out.file = file;

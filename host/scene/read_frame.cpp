@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "io/camera_json.h"
 #include "scene/readers.h"
 #include "scene/vec.h"
 #include "wrinkle/error.h"
@@ -18,12 +19,14 @@ bool has_inverse(const Mat4& m) {
     } catch (const Error&) { return false; }
 }
 
-/// What keeps `view` from being rigid, or nothing. Matrices written for row vectors are the usual slip.
-std::string why_not_rigid(const Mat4& view) {
-    const bool bottom_is_affine = view[3] == std::array<double, 4>{0, 0, 0, 1};
+/// What keeps `view` from being rigid, or nothing; rounding of its last row is taken out. Matrices written for row
+/// vectors are the usual slip.
+std::string why_not_rigid(Mat4& view) {
+    const bool bottom_is_affine = io::settle_last_row(view);
     if (!bottom_is_affine && view[0][3] == 0 && view[1][3] == 0 && view[2][3] == 0 && view[3][3] == 1)
         return "is transposed: its translation is in the last row; it belongs in the last column";
-    if (!bottom_is_affine) return "must have the last row [0, 0, 0, 1]";
+    if (!bottom_is_affine)
+        return fmt::format("must have the last row [0, 0, 0, 1]; found [{}]", fmt::join(view[3], ", "));
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) {
             const double product = view[i][0] * view[j][0] + view[i][1] * view[j][1] + view[i][2] * view[j][2];
@@ -56,9 +59,15 @@ void read_look_at(Table& table, CameraSource& out) {
     if (!table.is_bad("eye") && !table.is_bad("target") && !table.is_bad("up")) {
         if (look.eye == look.target)
             table.complain("target", "must not be the same point as eye");
-        else if (parallel(subtract(look.target, look.eye), look.up))
-            table.complain(table.has("up") ? "up" : "target",
-                           "must not make up zero or parallel to the viewing direction");
+        else if (const Vec3 along = subtract(look.target, look.eye); parallel(along, look.up)) {
+            const char* other = parallel(along, {0, 1, 0}) ? "up = [0, 0, 1]" : "up = [0, 1, 0]";
+            if (table.has("up"))
+                table.complain("up", fmt::format("is zero or parallel to the viewing direction; set {}", other));
+            else
+                table.complain("target", fmt::format("makes the viewing direction parallel to up, which is [0, 0, 1] "
+                                                     "unless given; set {}",
+                                                     other));
+        }
     }
     out.look_at = look;
 }

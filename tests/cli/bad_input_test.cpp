@@ -53,6 +53,10 @@ TEST(BadGBuffer, LacksAChannelThatALayerNeeds) {
     expect_refused(place, {"tilt", "dirt"});
     place.write_scene(tilt + "[lighting]\nrelight = \"ratio\"\nambient = [1, 1, 1]\n", "frame.exr", look);
     expect_refused(place, {"ratio", "beauty.r"});
+    write_exr(place / "flat.exr", 8, 6, {"Normal.X", "Normal.Y", "Normal.Z"});
+    place.write_scene(tilt, "flat.exr", look);
+    expect_refused(place, {"flat.exr: geometry, by a depth or a position pass, needs depth; the G-buffer has normal.x",
+                           "[gbuffer] roles"});
     place.write_scene(tilt, "frame.exr", look);
     EXPECT_EQ(place.run("run scene.toml").code, 0) << "enough for a constant";
 }
@@ -87,6 +91,11 @@ TEST(BadScene, NumbersKeysAndFiles) {
     expect_refused(place, {"scene.toml:"});
     fs::remove(place / "scene.toml");
     expect_refused(place, {"scene.toml"});
+    expect_failed(place.run("run '" + Workplace::data_file("gbuffer/small.exr") + "'"),
+                  {"small.exr: is no text", "wrinkle info"});
+    fs::create_directory(place / "shots");
+    place.write_scene(on("noise", "frequenzy = 4"), Workplace::data_file("gbuffer/small.exr"), look, "shots/a.toml");
+    expect_failed(place.run("run shots/a.toml"), {"wrinkle: shots/a.toml:"});
 }
 
 TEST(BadTexture, ChannelsAndTexels) {
@@ -106,6 +115,9 @@ TEST(BadTexture, ChannelsAndTexels) {
     expect_texture_refused("normal_map", "one.exr", {"one.exr", "1 channel"});
     expect_texture_refused("height_map", "broken.exr", {"broken.exr", "NaN", "(2, 1)"});
     expect_texture_refused("triplanar", "empty.png", {"empty.png"});
+    const std::string whole = read_text(data_folder / "textures/weave_normal.png");
+    write_text(place / "cut.png", whole.substr(0, whole.size() / 2));
+    expect_texture_refused("normal_map", "cut.png", {"cut.png: the PNG is truncated"});
     expect_texture_refused("height_map", "nowhere.png", {"nowhere.png"});
 }
 

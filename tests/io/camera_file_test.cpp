@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <limits>
 
 #include "io/header_camera.h"
 #include "tests/io/files.h"
@@ -173,6 +174,22 @@ TEST(CameraFile, HeaderOfVRayIsCameraToWorld) {
     expect_same(read_camera(from_header(), GBufferReader(folder / "vray.exr")));
 }
 
+TEST(CameraFile, WhatIsWrongWithTheHeaderIsTold) {
+    TempFolder folder;
+    Mat4 broken = transposed(world_to_ndc());
+    const auto complaint = [&] {
+        Metadata header;
+        header.set("worldToCamera", transposed(world_to_camera()));
+        header.set("worldToNDC", broken);
+        write_frame(folder / "f.exr", header, plain_names);
+        return error_of([&] { read_camera(from_header(), GBufferReader(folder / "f.exr")); });
+    };
+    broken[1][0] = std::numeric_limits<double>::quiet_NaN();
+    expect_mentions(complaint(), {"f.exr", "worldToNDC holds numbers that are not finite"});
+    broken = Mat4{};
+    expect_mentions(complaint(), {"worldToNDC is no projection"});
+}
+
 TEST(CameraFile, RayDistanceIsToldFromPlanarDepth) {
     TempFolder folder;
     write_frame(folder / "ray.exr", {}, plain_names, true);
@@ -229,8 +246,8 @@ TEST(CameraFile, Json) {
     expect_mentions(complaint(R"({"view": [[1,2],[3,4]], "proj": 3})"), {"\"view\" is 2 rows", "4 rows of 4"});
     expect_mentions(complaint("{\"view\": " + view + R"(, "proj": [[1,0,0,0],[0,1,0,0],[0,0,"x",0],[0,0,1,0]]})"),
                     {"\"proj\" is no number in row 2, column 2"});
-    expect_mentions(complaint("{\"view\": " + view + R"(, "proj": [[1e999,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,0]]})"),
-                    {"f.0012.json"});
+    expect_mentions(complaint("{\"view\": " + view + ",\n\"proj\": [[1e999,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,0]]}"),
+                    {"f.0012.json", "line 2", "out of range", "1e999"});
     expect_mentions(
         complaint("{\"view\": " + json_matrix(transposed(true_camera().view)) + ", \"proj\": " + proj + "}"),
         {"looks transposed"});
@@ -242,6 +259,13 @@ TEST(CameraFile, Json) {
                     {"the camera is for 96x96 and the frame is 96x54"});
     write_text(file, fmt::format(R"({{"width": 192, "height": 108, "view": {}, "proj": {}}})", view, proj));
     expect_same(read_camera(source, reader, 12), 1e-12);
+    Mat4 rounded = true_camera().view;
+    rounded[3] = {1e-7, 0, -1e-7, 1.0000001};
+    write_text(file, "{\"view\": " + json_matrix(rounded) + ", \"proj\": " + proj + "}");
+    expect_same(read_camera(source, reader, 12), 1e-12);
+    rounded[3] = {0, 0, 0, 1.01};
+    expect_mentions(complaint("{\"view\": " + json_matrix(rounded) + ", \"proj\": " + proj + "}"),
+                    {"the last row of view is 0 0 0 1.01, not 0 0 0 1"});
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ TEST_F(BadScene, FileThatCannotBeRead) {
     EXPECT_NE(message(folder_).find("is a folder; a scene file was expected"), std::string::npos);
     for (const char* text : {"", "# nothing but a comment\n"})
         EXPECT_EQ(message(write("courtyard.toml", text)),
-                  "courtyard.toml: the scene is empty; it needs [gbuffer] and [camera]");
+                  (folder_ / "courtyard.toml").string() + ": the scene is empty; it needs [gbuffer] and [camera]");
+    EXPECT_NE(message(write("courtyard.toml", std::string("v/1\1\2\0\0\0", 8))).find("\"wrinkle info\""),
+              std::string::npos);
 }
 
 TEST_F(BadScene, Syntax) {
@@ -93,7 +95,7 @@ TEST_F(BadScene, KeysOfAnotherKind) {
 }
 
 TEST_F(BadScene, UnknownNames) {
-    expect_problem_with(layer("kind = \"decall\"\noctaves = 2\n"), 6,
+    expect_problem_with(layer("kind = \"decall\"\noctaves = 2\nscael = 2\n"), 6,
                         {"\"kind\" in [[layer]] 1 is \"decall\"; did you mean \"decal\"?", "allowed: \"normal_map\""});
     expect_problem_with(layer("octaves = 2\n"), 5, {"[[layer]] 1 needs the key \"kind\": \"normal_map\", "});
     expect_problem_with(layer("kind = 3\n"), 6, {"must be one of \"normal_map\"", "found 3"});
@@ -247,6 +249,8 @@ TEST_F(BadScene, MissingFiles) {
                    {"in [gbuffer]", "there is no file"});
     expect_problem("[camera]\nfrom = \"exr\"\n[gbuffer]\nfile = \"shots/f.####.exr\"\n", 4,
                    {"there is no folder", "shots"});
+    expect_problem("[camera]\nfrom = \"exr\"\n[gbuffer]\nfile = \"shot.####/f.####.exr\"\n", 4,
+                   {"there is no folder", "shot.####"});
     expect_problem("[gbuffer]\nfile = \"frame.exr\"\n[camera]\nfile = \"none.json\"\n", 4,
                    {"in [camera]", "none.json"});
 }
@@ -267,12 +271,14 @@ TEST_F(BadScene, Camera) {
     expect("from = \"json\"\n", 4, {"allowed: \"exr\""});
     expect("eye = [0, 0, 0]\ntarget = [1, 0, 0]\nfov = 180\n", 6, {"greater than 0 and less than 180; found 180"});
     expect("eye = [0, 0, 0]\ntarget = [0, 0, 0]\nfov = 18\n", 5, {"same point"});
-    expect("eye = [0, 0, 0]\ntarget = [0, 0, 2]\nfov = 18\n", 5, {"parallel"});
+    expect("eye = [0, 0, 0]\ntarget = [0, 0, 2]\nfov = 18\n", 5,
+           {"\"target\"", "parallel to up, which is [0, 0, 1] unless given", "set up = [0, 1, 0]"});
+    expect("eye = [0, 0, 0]\ntarget = [0, 3, 0]\nup = [0, 1, 0]\nfov = 18\n", 6, {"\"up\"", "set up = [0, 0, 1]"});
     expect("eye = [0, 0, 0]\ntarget = [0, 0, 2]\nup = [0, 0, 0]\nfov = 18\n", 6, {"\"up\"", "zero"});
     expect("view = [[1,0,0],[0,1,0],[0,0,1]]\n" + proj, 4, {"\"view\"", "4x4"});
     expect("view = [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,\"1\"]]\n" + proj, 4, {"a number"});
     expect("view = [[1,0,0,0],[0,1,0,0],[0,0,1,0],[5,6,7,1]]\n" + proj, 4, {"transposed"});
-    expect("view = [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]\n" + proj, 4, {"last row"});
+    expect("view = [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]\n" + proj, 4, {"last row", "[0, 0, 0, 2]"});
     expect("view = [[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]\n" + proj, 4, {"rigid"});
     expect(view + "proj = [[1,0,0,0],[1,0,0,0],[0,0,-1,-0.2],[0,0,-1,0]]\n", 5, {"singular"});
     expect(view + proj + "max_residual = 0\n", 6, {"greater than 0"});
