@@ -24,7 +24,7 @@ const std::vector<std::string> all_parts{"memory", "functions", "demo", "scenes"
 struct Arguments {
     std::vector<std::string> only;
     std::string function, device, lanes;
-    fs::path scene = WRINKLE_SOURCE_DIR "/data/scenes/courtyard.toml", json, report, compare;
+    fs::path scene, json, report, compare;
     Size size{3840, 2160};
     int repetitions = 9;
     bool quick = false;
@@ -35,7 +35,7 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
         ->delimiter(',')
         ->check(CLI::IsMember(all_parts));
     app.add_option("--function", a.function, "of the functions, only this one; on 1, 4, 8 and 16 lanes");
-    app.add_option("--scene", a.scene, "scene of the part demo")->capture_default_str();
+    app.add_option("--scene", a.scene, "scene of the part demo; else data/scenes/courtyard.toml");
     app.add_option("--width", a.size.width, "pixels of the parts demo and scenes")
         ->capture_default_str()
         ->check(CLI::Range(16, 65536));
@@ -66,14 +66,15 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         if (!a.function.empty()) options.lanes = {1, 4, 8, 16};
         std::ranges::move(bench::measure_functions(device, options), std::back_inserter(run.measurements));
     }
-    if (wanted("demo")) bench::measure_scene(device, a.scene, size, true, run);
+    const fs::path demo = a.scene.empty() ? WRINKLE_SOURCE_DIR "/data/scenes/courtyard.toml" : a.scene;
+    if (wanted("demo")) bench::measure_scene(device, demo, size, true, run);
     if (wanted("scenes")) {
         std::set<fs::path> files;
         for (const auto& entry : fs::directory_iterator(WRINKLE_SOURCE_DIR "/bench/scenes")) files.insert(entry.path());
         for (const fs::path& file : files) bench::measure_scene(device, file, size, false, run);
     }
     if (wanted("sizes"))
-        bench::measure_sizes(device, a.scene, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
+        bench::measure_sizes(device, demo, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void add_eval(CLI::App& app) {
     command->add_option("--out", arguments->out, "FILE (CSV); RESULT=FILE.npy; RESULT=FILE.exr; else CSV is printed")
         ->type_name("OUTPUT")
         ->allow_extra_args(false);
-    command->add_option("--set", arguments->settings, "a setting: numbers with commas, an image file, a camera file")
+    command->add_option("--set", arguments->settings, "a setting: numbers with commas, a camera, image or volume file")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     command->add_option("--size", arguments->size, "size of a camera's frame; else that of its file or of the pictures")
@@ -104,8 +104,9 @@ void add_eval(CLI::App& app) {
         "  wrinkle eval resolve --help\n"
         "  wrinkle eval resolve < in.csv > out.csv\n"
         "  wrinkle eval resolve --in n=normal.npy --in g=g.npy --out normal=bumped.npy\n"
-        "  wrinkle eval screen_derivatives --in n=frame.exr:Normal --in p=p.npy --set frame=shot.camera.json --out "
-        "dp_dx=d.exr");
+        "  wrinkle eval screen_derivatives --in n=data/gbuffer/small.exr:Normal --in p=p.npy "
+        "--set frame=data/gbuffer/small.camera.json --out dp_dx=d.exr\n"
+        "                        (p: positions less the camera's, as kernels take them)");
     command->callback([arguments, command] { eval(*arguments, *command); });
 }
 

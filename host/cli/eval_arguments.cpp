@@ -16,23 +16,24 @@ namespace wrinkle::cli {
 
 namespace {
 
-std::vector<double> numbers_of(const std::string& text, const std::string& what) {
+std::vector<double> numbers_of(const std::string& text, const std::string& name) {
     std::vector<double> numbers;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         double number = 0;
         const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, number);
         if (error != std::errc() || stop != text.data() + end)
-            throw Error(fmt::format("{}: {} is no number", what, scene::quote(text.substr(begin, end - begin))));
+            throw CLI::ValidationError("--set " + name,
+                                       fmt::format("{} is no number", scene::quote(text.substr(begin, end - begin))));
         numbers.push_back(number);
         begin = end + 1;
     }
     return numbers;
 }
 
-CameraSetting camera_of(const std::filesystem::path& file, std::optional<Size> size, const std::string& what) {
+CameraSetting camera_of(const std::filesystem::path& file, std::optional<Size> size, const std::string& name) {
     if (!size) size = io::camera_json_size(file);
-    if (!size) throw Error(fmt::format("{}: {} has no width and height; give --size", what, file.string()));
+    if (!size) throw Error(fmt::format("--set {}: {} has no width and height; give --size", name, file.string()));
     return {io::read_camera_json(file, *size), *size};
 }
 
@@ -76,17 +77,19 @@ std::map<std::string, SettingValue> parse_settings(const Function& function, con
             throw Error(fmt::format("{} has no setting {}{}", function.name, scene::quote(name),
                                     known.empty() ? "; it has none" : scene::did_you_mean(name, known)));
         if (values.contains(name)) throw Error(fmt::format("the setting \"{}\" is given twice", name));
-        const std::string what = fmt::format("--set {}", name);
         switch (setting->kind) {
             case Setting::Kind::camera:
-                values[name] = camera_of(value, size, what);
+                values[name] = camera_of(value, size, name);
                 break;
             case Setting::Kind::height_texture:
             case Setting::Kind::slope_texture:
+            case Setting::Kind::volume:
+            case Setting::Kind::smooth_volume:
+            case Setting::Kind::vector_volume:
                 values[name] = std::filesystem::path(value);
                 break;
             default:
-                values[name] = numbers_of(value, what);
+                values[name] = numbers_of(value, name);
         }
     }
     return values;

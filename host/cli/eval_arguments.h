@@ -22,7 +22,8 @@ EvalFile parse_eval_file(const std::string& text);
 Size parse_size(const std::string& text);
 
 /// The values of "NAME=VALUE" texts, each by its setting's kind. `size`: the frame of a camera, else what its file
-/// says. Throws Error, or CLI::ValidationError where there is no "=".
+/// says. Throws Error, or CLI::ValidationError where there is no "=",
+/// or a number is none.
 std::map<std::string, SettingValue> parse_settings(const Function& function, const std::vector<std::string>& texts,
                                                    std::optional<Size> size);
 

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr char kMagic[] = "wrinkle program 1\n";
 constexpr char kExtension[] = ".program";
+constexpr std::chrono::hours kAbandoned(1);  // a program that is still without its name was of a killed run
 
 /// FNV-1a, 64 bits, with two offsets for 128: names files, protects nothing.
 std::string hash_name(const std::string& text) {
@@ -26,8 +29,17 @@ std::string hash_name(const std::string& text) {
     return fmt::format("{:016x}{:016x}", a, b);
 }
 
-/// Deletes the longest unused programs of a folder until the rest is within `limit` bytes. Other processes may do the
-/// same: a file that is gone already is none.
+/// Where a program is written before it has its name: of this process and call alone.
+fs::path unfinished_name(const fs::path& file) {
+    static std::atomic<int> count{0};
+    fs::path beside = file;
+    return beside += fmt::format(".{}-{}", ::getpid(), ++count);
+}
+
+bool is_unfinished(const fs::path& file) { return file.stem().extension() == kExtension; }
+
+/// Deletes the longest unused programs of a folder until the rest is within `limit` bytes, and what killed runs left.
+/// Other processes may do the same: a file that is gone already is none.
 void prune(const fs::path& folder, std::uintmax_t limit) {
     struct Entry {
         fs::path file;
@@ -39,7 +51,10 @@ void prune(const fs::path& folder, std::uintmax_t limit) {
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         std::error_code gone;
         const Entry found{entry.path(), entry.last_write_time(gone), entry.file_size(gone)};
-        if (!gone && found.file.extension() == kExtension) entries.push_back(found);
+        if (gone) continue;
+        if (found.file.extension() == kExtension) entries.push_back(found);
+        if (is_unfinished(found.file) && fs::file_time_type::clock::now() - found.used > kAbandoned)
+            fs::remove(found.file, gone);
     }
     std::ranges::sort(entries, std::greater{}, &Entry::used);
     std::uintmax_t kept = 0;
@@ -83,8 +98,7 @@ void write_program(const fs::path& file, const std::vector<unsigned char>& bytes
     const std::string binary(bytes.begin(), bytes.end());
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
-    fs::path beside = file;
-    beside += fmt::format(".{}", ::getpid());
+    const fs::path beside = unfinished_name(file);
     {
         std::ofstream out(beside, std::ios::binary);
         out << kMagic << hash_name(binary) << binary;

@@ -109,8 +109,11 @@ std::string function_example(const Function& function) {
     std::string settings;
     for (const Setting& setting : function.settings) {
         if (!setting.standard.empty()) continue;
-        const char* value = "image.png";
-        if (setting.kind == Setting::Kind::camera) value = "shot.camera.json";
+        const char* value = "data/textures/cobbles_height.png";
+        if (setting.kind == Setting::Kind::camera) value = "data/gbuffer/small.camera.json";
+        if (setting.kind == Setting::Kind::volume) value = "data/volumes/noise.vdb";
+        if (setting.kind == Setting::Kind::smooth_volume) value = "data/volumes/noise.vdb";
+        if (setting.kind == Setting::Kind::vector_volume) value = "gradient.vdb";
         if (setting.kind == Setting::Kind::number) value = "1";
         if (setting.kind == Setting::Kind::vector) value = "0,0,1";
         if (setting.kind == Setting::Kind::projector) value = "0,0,0,1,0,0,0,1,0,1,1,1";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "functions/tables.h"
+#include "io/volume_file.h"
 #include "run/frame_constants.h"
 #include "run/texture_heap.h"
 #include "scene/problems.h"
@@ -52,12 +53,16 @@ wr_decal decal_of(const std::vector<double>& v) {
 }
 
 /// FILE, or FILE#GRID.
-PlannedTexture volume_of(const std::filesystem::path& name, bool smooth) {
+PlannedTexture volume_of(const std::filesystem::path& name, Kind kind) {
     const std::string text = name.string();
     const std::size_t hash = std::filesystem::exists(name) ? std::string::npos : text.rfind('#');
-    return {{.file = text.substr(0, hash)},
-            smooth ? TexelKind::volume_smooth : TexelKind::volume,
-            hash == std::string::npos ? "" : text.substr(hash + 1)};
+    const std::string file = text.substr(0, hash), grid = hash == std::string::npos ? "" : text.substr(hash + 1);
+    const VolumeInfo info = volume_info(file, grid);
+    if ((info.channels == 3) != (kind == Kind::vector_volume))
+        throw Error(fmt::format("{}: the grid {} holds {}; {} are expected", file, scene::quote(info.grid),
+                                info.channels == 3 ? "vectors" : "numbers",
+                                info.channels == 3 ? "numbers" : "vectors"));
+    return {{.file = file}, kind == Kind::smooth_volume ? TexelKind::volume_smooth : TexelKind::volume, grid};
 }
 
 void append_lattice(std::vector<double>& to, double frequency, double lacunarity) {
@@ -81,6 +86,8 @@ const char* wanted_text(Setting::Kind kind) {
         case Kind::volume:
         case Kind::smooth_volume:
             return "a volume file (.vdb, .nvdb), or FILE#GRID";
+        case Kind::vector_volume:
+            return "a volume file of vectors (.vdb, .nvdb), or FILE#GRID";
         case Kind::projector:
             return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
         case Kind::lattice:
@@ -152,8 +159,9 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
                 break;
             case Kind::volume:
             case Kind::smooth_volume:
+            case Kind::vector_volume:
                 data.constants.push_back(static_cast<double>(textures.size()));
-                textures.push_back(volume_of(*file, setting.kind == Kind::smooth_volume));
+                textures.push_back(volume_of(*file, setting.kind));
                 break;
         }
     }
@@ -196,6 +204,7 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
                 break;
             case Kind::volume:
             case Kind::smooth_volume:
+            case Kind::vector_volume:
                 value = fmt::format("wr_volume {} = wr_volume_at(texels, textures, (uint)constants[{}])", setting.name,
                                     at.constants);
                 break;

@@ -59,7 +59,7 @@ std::vector<Function> volume_functions() {
          .summary = "Trilinear vector of a sparse volume of vectors",
          .source = "trilinear interpolation",
          .parameters = {p},
-         .settings = {{"volume", Setting::Kind::volume, "the grid, of vectors"}},
+         .settings = {{"volume", Setting::Kind::vector_volume, "the grid, such as bake-volume golden-gradient makes"}},
          .results = {result(vector("v", "the grid's", "interpolated vector"), {absolute})},
          .variants = {{standard, "v = wr_volume_vector(volume, p);", {5e-7}}},
          .note = "For vectors within +-1. Outside the grid its background."},

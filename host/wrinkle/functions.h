@@ -57,6 +57,7 @@ struct Setting {
         slope_texture,   ///< ... their slopes
         volume,          ///< a volume file, or FILE#GRID, for trilinear samples
         smooth_volume,   ///< ... for B-splines
+        vector_volume,   ///< ... of 3-vectors; the others are of numbers
         projector,       ///< center, axis_x, axis_y, half_size: 12 numbers; then falloff, angle_fade as cosines: 3 more
         lattice,         ///< frequency of the first octave, lacunarity
     };

@@ -33,6 +33,11 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
     fs::copy_file(folder / "3.program", folder / "not_ours.bin");
+    for (const int age : {0, 2}) {  // of runs that go on, and that were killed
+        const fs::path file = folder / ("9.program.123-" + std::to_string(age));
+        fs::copy_file(folder / "3.program", file);
+        fs::last_write_time(file, now - std::chrono::hours(age));
+    }
     EXPECT_EQ(read_program(folder / "3.program"), binary);  // now the one used last
     write_program(folder / "0.program", binary, 2500);
     EXPECT_TRUE(fs::exists(folder / "0.program"));
@@ -40,6 +45,9 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
     EXPECT_FALSE(fs::exists(folder / "2.program"));
     EXPECT_FALSE(fs::exists(folder / "1.program"));
     EXPECT_TRUE(fs::exists(folder / "not_ours.bin"));
+    EXPECT_TRUE(fs::exists(folder / "9.program.123-0"));
+    EXPECT_FALSE(fs::exists(folder / "9.program.123-2"));
+    EXPECT_EQ(folder.files().size(), 4u) << "nothing unfinished is left";
 }
 
 }  // namespace
