@@ -76,9 +76,16 @@ Section emit_lighting(Emitter& emitter) {
     const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
     for (const auto& part : parts)
         text += fmt::format(
-            "        real {1} = wr_load(in_beauty_{1}, at.in);\n"
+            "        floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
+            "        mask seen_{1} = wr_finite(raw_{1});\n"
+            "        real {1} = wr_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
             "        lit.{0} = valid ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
             part.axis, part.color);
+    if (emitter.scene.output.marked) {
+        section.reads.insert("marked");
+        section.writes.insert("marked");
+        text += "        marked += (seen_r & seen_g & seen_b) ? (real)(0) : (real)(16);\n";
+    }
     return section;
 }
 

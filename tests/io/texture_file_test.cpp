@@ -139,6 +139,18 @@ TEST(TextureFile, SignedFloatNormalsAreBroughtToZeroToOne) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(2 * image.at(0, 1, c) - 1, m[c], 1e-6);
 }
 
+TEST(TextureFile, FloatNormalsAreWhatMostOfThemLookLike) {
+    TempFolder folder;
+    const auto flat = make_spec(4, 4, {"R", "G", "B"});
+    const auto z_of = [&](auto texel) {
+        write_image(folder / "n.exr", {{flat, texel}});
+        return 2 * load_texture(folder / "n.exr", ImageUse::normal).at(2, 2, 2) - 1;
+    };
+    EXPECT_NEAR(z_of([](int c, int, int) { return c == 2 ? 1.0f : 0.0f; }), 1, 1e-6) << "flat, signed";
+    const auto ringing = [](int c, int x, int y) { return c == 2 ? 1.0f : x + y == 0 ? -0.001f : 0.5f; };
+    EXPECT_NEAR(z_of(ringing), 1, 1e-6) << "flat, in [0,1], but for what a resize left in a corner";
+}
+
 TEST(TextureFile, ChannelsThatDoNotFit) {
     TempFolder folder;
     write_exr(folder / "grey.png", 2, 2, {"Y"}, gradient, OIIO::TypeUInt8);
