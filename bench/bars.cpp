@@ -62,14 +62,17 @@ constexpr Promise kPromises[] = {
     {"wrinkle run / oiiotool", {"files", "resolve", "wrinkle run"}, {"files", "resolve", "oiiotool"}, 0.65},
 };
 
-/// The one of this variant, else the fastest of those whose variant starts so; null where there is none.
+/// The fastest of those of this variant, on however many lanes; else of those whose variant starts so; null where there
+/// is none.
 const Measurement* find(const Run& run, const Subject& wanted) {
     const Measurement* best = nullptr;
+    const auto exact = [&](const Measurement& m) { return m.variant == wanted.variant; };
     for (const Measurement& m : run.measurements) {
         if (m.group != wanted.group || m.name != wanted.name || m.seconds.median <= 0) continue;
-        if (m.variant == wanted.variant) return &m;
-        if (m.variant.starts_with(wanted.variant) && (best == nullptr || m.ns_per_pixel() < best->ns_per_pixel()))
-            best = &m;
+        if (!m.variant.starts_with(wanted.variant)) continue;
+        const bool better =
+            best == nullptr || (exact(m) == exact(*best) ? m.ns_per_pixel() < best->ns_per_pixel() : exact(m));
+        if (better) best = &m;
     }
     return best;
 }

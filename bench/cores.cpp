@@ -25,7 +25,7 @@ void measure_cores(const Device& device, Size size, Run& run) {
     const std::pair<const char*, std::filesystem::path> scenes[] = {
         {"arithmetic", WRINKLE_SOURCE_DIR "/bench/scenes/arithmetic.toml"}, {"decal_stack", stack_scene()}};
     try {
-        const Device one = part_of(device, 1), two = part_of(device, 2);
+        const Device one = part_of(device, 1), two = device.info.compute_units == 2 ? device : part_of(device, 2);
         for (const auto& [name, file] : scenes) {
             const Scene from_file = load_scene(file);
             const BenchFrame frame = Resampler(from_file).frame(size);

@@ -40,7 +40,7 @@ Measurement measurement_of(const json& j) {
     m.bytes = j.at("bytes_per_pixel"), m.operations = j.at("operations_per_pixel"), m.unit = j.at("error_unit");
     m.error = stats_of(j.at("error"));
     for (const auto& [category, stats] : j.at("error_hard").items()) m.hard[category] = stats_of(stats);
-    m.bound = j.at("documented_error"), m.hash = j.at("hash"), m.memory = j.at("memory_bytes");
+    m.bound = j.at("documented_error"), m.hash = j.at("hash"), m.memory = j.value("memory_bytes", 0.0);
     return m;
 }
 
@@ -94,14 +94,14 @@ Run read_run(const std::string& file) {
     if (!in) throw Error(fmt::format("cannot read {}", file));
     try {
         const json j = json::parse(in);
-        if (j.at("wrinkle_bench") != 2)
+        if (const int version = j.at("wrinkle_bench"); version != 1 && version != 2)
             throw Error(fmt::format("{}: written by another version of wrinkle bench", file));
         Run run{j.at("processor"), j.at("device"), j.at("command"), j.at("repetitions"), {}, {}, {}};
         const json& c = j.at("ceilings");
         run.ceilings = {c.at("copy_gb_per_s"), c.at("triad_gb_per_s"), c.at("fma_gflop_per_s"),
-                        c.at("streamed_triad_gb_per_s")};
+                        c.value("streamed_triad_gb_per_s", 0.0)};
         for (const json& m : j.at("measurements")) run.measurements.push_back(measurement_of(m));
-        for (const json& b : j.at("bars")) run.bars.push_back(bar_of(b));
+        for (const json& b : j.value("bars", json::array())) run.bars.push_back(bar_of(b));
         return run;
     } catch (const json::exception&) {
         throw Error(fmt::format("{} is no report of wrinkle bench; write one with --json or --report", file));

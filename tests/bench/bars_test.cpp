@@ -28,6 +28,13 @@ TEST(Bars, ComeWithVerdictAndErrors) {
     EXPECT_DOUBLE_EQ(bars_of(run).front().of_p99, 1e-5);
 }
 
+TEST(Bars, TakeTheFastestLanes) {
+    bench::Run run;
+    run.measurements = {stack("standard", 30), stack("standard", 10), stack("plain C++", 50),
+                        stack("plain C++, fast-math", 11)};
+    EXPECT_EQ(verdict(run, "8 decals / plain C++"), "met") << "and another variant counts only where this one is not";
+}
+
 TEST(Bars, SayNothingWithinTheSpread) {
     bench::Run run;
     run.measurements = {stack("standard", 12, 0.2), stack("plain C++", 50, 0.2)};

@@ -75,5 +75,15 @@ TEST(Record, ReadsBackWhatItWrote) {
     EXPECT_THROW(read_run(file.string()), Error);
 }
 
+TEST(Record, ReadsTheCommittedRuns) {
+    std::size_t read = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(WRINKLE_SOURCE_DIR "/bench/results")) {
+        if (entry.path().extension() != ".json") continue;
+        EXPECT_FALSE(read_run(entry.path()).measurements.empty()) << entry.path();
+        ++read;
+    }
+    EXPECT_GT(read, 0u);
+}
+
 }  // namespace
 }  // namespace wrinkle::bench
