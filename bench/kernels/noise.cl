@@ -3,6 +3,7 @@
 #include "lanes.clh"
 #include "vec.clh"
 #include "sources/noise_table.clh"
+#include "sources/noise_lookup.clh"
 #include "sources/noise.clh"
 
 #define WR_OCTAVES 8
