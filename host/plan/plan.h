@@ -45,6 +45,9 @@ struct PlanOptions {
     bool write_normal = true;      ///< resolve and write it
     bool volume_gradient = false;  ///< write the sum of the volume gradients before any projection (accumulate_decals)
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
+    // What plans save, to be measured by leaving it out:
+    bool skip = true;       ///< groups of pixels that do not want a layer, or lie outside a decal, skip it
+    bool switches = false;  ///< branch at run time around every layer; those of scale 0 are switched off
 };
 
 /// Periods of three numbers: the same for all, or one each; 0 for none.

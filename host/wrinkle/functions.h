@@ -90,7 +90,6 @@ struct Function {
     std::vector<Result> results{};
     std::vector<FunctionVariant> variants{};  ///< from fast to exact; standard is always there
     double fp64_error = 1e-9;                 ///< largest error of a run in double, by any measure
-    double operations = 0;                    ///< floating-point operations per row, an fma being two; 0: not counted
     std::string note{};                       ///< where the error may be larger, what degenerate input gives
 
     /// The variant that serves `wanted`: itself, else the next more accurate, else the most accurate one.
