@@ -45,9 +45,11 @@ TEST_P(Budgets, AreKept) {
     Scene scene = on_small_frame(GetParam(), frame);
     const Truth truth(frame, scene);
     const TempFolder folder;
+    RenderOptions options;
+    options.directory = folder / "out";
     for (const double max_error : kBudgets) {
         scene.budget = {.max_error = max_error, .sample = std::numeric_limits<int>::max()};
-        const RenderReport report = render(scene, {.directory = folder / "out"});
+        const RenderReport report = render(scene, options);
         ASSERT_TRUE(report.budget);
         const double error = largest_error(folder / "out/normal.exr", truth);
         fmt::print("{} within {}: {:.2e} degrees ({:.2e} measured, {} pixels), {}\n", GetParam(), max_error, error,
@@ -103,9 +105,9 @@ struct TwoNoises {
 
     TwoNoises() {
         scene.layers.resize(3);
-        scene.layers[0] = {.name = "fine", .bump = NoiseLayer{.octaves = 2}};
-        scene.layers[1] = {.name = "coarse", .bump = NoiseLayer{.type = NoiseType::simplex}};
-        scene.layers[2] = {.name = "tilt", .bump = ConstantLayer{{0.1, 0, 0}}};
+        scene.layers[0].name = "fine", scene.layers[0].bump = NoiseLayer{.octaves = 2};
+        scene.layers[1].name = "coarse", scene.layers[1].bump = NoiseLayer{.type = NoiseType::simplex};
+        scene.layers[2].name = "tilt", scene.layers[2].bump = ConstantLayer{{0.1, 0, 0}};
         using enum Precision;
         costs.kinds["geometry"] = {{fast, {1, 0, 1e-3}}, {standard, {2, 0, 0}}, {exact, {3, 0, 0}}, {fp64, {9, 0, 0}}};
         costs.kinds["noise perlin"] = {{standard, {10, 0, 0.5}}, {exact, {15, 0, 0.01}}, {fp64, {40, 0, 0}}};
