@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "device/kernel_sources.h"
-#include "device/program.h"
+#include "device/program_cache.h"
 #include "io/atomic_file.h"
 #include "scene/files.h"
 #include "wrinkle/error.h"
