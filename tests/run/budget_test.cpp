@@ -186,6 +186,16 @@ TEST(Budget, DamagedTablesAreNamed) {
     EXPECT_FALSE(again.find("noise perlin", Precision::fast));
 }
 
+TEST(ErrorSample, NeedsDoublePrecision) {
+    Device without = device();
+    without.info.fp64 = false;
+    const HostFrame frame = small_frame();
+    try {
+        ErrorSample(without, Scene{}, frame.frame, {});
+        ADD_FAILURE();
+    } catch (const Error& error) { expect_mentions(error.what(), {"max_error", "cl_khr_fp64", "--device"}); }
+}
+
 /// A pass that tilts too much: every sampled pixel tells by how much, whichever they are.
 TEST(ErrorSample, MeasuresAnglesOfASeededSample) {
     const HostFrame frame = small_frame();

@@ -73,6 +73,12 @@ TEST_P(ConditionScenes, BoundsWhatInputsMovedByAnUlpDo) {
 INSTANTIATE_TEST_SUITE_P(Scenes, ConditionScenes, testing::Values("constant", "decals", "noise", "normal_map"),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(Condition, NeedsDoublePrecision) {
+    Device without = device();
+    without.info.fp64 = false;
+    EXPECT_THROW(Condition(without, Scene{}, small_frame().frame), Error);
+}
+
 TEST(Condition, IsOfANormalWhatItsRoundingIs) {  // nothing is bumped: the normal's own three ulps, whatever its place
     const HostFrame frame = small_frame();
     const std::vector<float> condition = condition_of(frame, {});
