@@ -82,7 +82,8 @@ private:
 
     void measure_layer(std::size_t index) {
         say(fmt::format("layer \"{}\"", scene_.layers[index].name));
-        const Scene alone = with({scene_.layers[index]});
+        Scene alone = with({scene_.layers[index]});
+        alone.layers.front().mask = {};  // what it costs and errs where it is
         const CostKind kind = cost_kind(scene_.layers[index]);
         ErrorSample sample = sample_of(alone);
         for (const Precision precision : layer_precisions(alone, 0, kind_)) {
