@@ -81,36 +81,41 @@ Periods lattice_period(const NoiseLayer& l, int i) {
 }
 
 /// Adds the origins of all octaves, or what floats leave of them; gives the number of the first.
-std::size_t add_lattice(Emitter& emitter, const NoiseLayer& l, bool low) {
+std::size_t add_lattice(Emitter& emitter, const NoiseLayer& l, const NoiseSpace& space, bool low) {
     double frequency = l.frequency;
     const std::size_t first = emitter.plan.origins.size();
-    for (int i = 0; i < l.octaves; ++i, frequency *= l.lacunarity)
-        emitter.origin({.axes = {Vec3{frequency, 0, 0}, Vec3{0, frequency, 0}, Vec3{0, 0, frequency}},
-                        .offset = {},
-                        .period = lattice_period(l, i),
-                        .fourth = frequency,
-                        .low = low});
+    for (int i = 0; i < l.octaves; ++i, frequency *= l.lacunarity) {
+        Origin origin{.period = lattice_period(l, i), .fourth = frequency, .low = low};
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t j = 0; j < 3; ++j) origin.axes[k][j] = frequency * space.axes[k][j];
+            origin.offset[k] = frequency * space.offset[k];
+        }
+        emitter.origin(origin);
+    }
     return first;
 }
 
 }  // namespace
 
-std::string emit(LayerText& at, const NoiseLayer& l) {
-    const bool pairs = at.emitter.precision(at.layer) == Precision::exact;
-    const std::size_t first = add_lattice(at.emitter, l, false);
+std::string noise_over(LayerText& at, const NoiseLayer& l, const NoiseSpace& space) {
+    const std::size_t first = add_lattice(at.emitter, l, space, false);
     at.section.reads.insert("p");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += octave_cost(l) * l.octaves;
-    std::string points = fmt::format("p,\n            origins + {}", 4 * first);
+    const bool pairs =
+        std::holds_alternative<NoiseLayer>(at.layer.bump) && at.emitter.precision(at.layer) == Precision::exact;
+    std::string points = fmt::format("{},\n            origins + {}", space.point, 4 * first);
     if (pairs) {
         at.section.reads.insert("p_low");
         at.section.operations += kPairs * l.octaves;
         points = fmt::format("p, p_low,\n            origins + {}, origins + {}", 4 * first,
-                             4 * add_lattice(at.emitter, l, true));
+                             4 * add_lattice(at.emitter, l, space, true));
     }
-    return fmt::format("        wr_noise_value f = wr_fractal_at({}, {}, {}, active);\n", fractal_text(l, pairs),
-                       points, at.layer.footprint ? "wr_footprint_size(dp_dx, dp_dy)" : "(real)(0)") +
-           shape_text(l.shape) + at.volume("f.gradient");
+    return fmt::format("        wr_noise_value f = wr_fractal_at({}, {}, {}, {});\n", fractal_text(l, pairs), points,
+                       at.layer.footprint ? space.footprint : "(real)(0)", space.active) +
+           shape_text(l.shape);
 }
+
+std::string emit(LayerText& at, const NoiseLayer& l) { return noise_over(at, l, {}) + at.volume("f.gradient"); }
 
 }  // namespace wrinkle
