@@ -7,11 +7,8 @@
 #include <cctype>
 #include <cmath>
 
-<<<<<<< HEAD
-#include "plan/precision.h"
-=======
 #include "io/names.h"
->>>>>>> main
+#include "plan/precision.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {

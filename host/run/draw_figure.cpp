@@ -37,7 +37,7 @@ struct Shown {
 
 /// Condition as a grey, per whole frame.
 Planes show_condition(const Device& device, const Scene& scene, const GBufferReader& reader) {
-    constexpr float kWhite = 4;  // powers of ten
+    constexpr float kWhite = 6;  // powers of ten
     const Size size = reader.size();
     Condition condition(device, scene, describe_frame(scene));
     const Planes in = read_planes(reader, condition.inputs());
