@@ -41,7 +41,9 @@ TEST(BudgetOption, PrecisionsDifferAndConverge) {
         const GBufferReader reader(place / (std::string(precision) + "/normal.exr"));
         std::vector<float>& plane = normals[precision];
         plane.resize(std::size_t{reader.size().width} * reader.size().height);
-        reader.read_rows(0, reader.size().height, {"channel:normal.X"}, {plane.data()});
+        const std::vector<std::string> names{"channel:normal.X"};
+        const std::vector<float*> into{plane.data()};
+        reader.read_rows(0, reader.size().height, names, into);
     }
     const auto largest = [&](const char* precision) {
         float most = 0;
