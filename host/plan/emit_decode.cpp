@@ -12,6 +12,7 @@ struct GeometryText {
     std::vector<std::string> planes;
     std::string valid;     // mask of the planes, as text; empty when they are always valid
     std::string position;  // sets p from pixel (x, y) and plane values z or px, py, pz
+    std::string pairs;     // the same as a wr_pair3; empty where there is none such
 };
 
 GeometryText geometry_text(const Emitter& emitter) {
@@ -31,12 +32,16 @@ GeometryText geometry_text(const Emitter& emitter) {
                 "wr_valid_depth(z)",
                 parallel              ? "vec3 p = wr_parallel_position(frame, x, y, wr_real(z));"
                 : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
-                                      : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));"};
+                                      : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));",
+                parallel              ? ""
+                : available.ray_depth ? "wr_distant_position_pairs(frame, x, y, wr_real(z))"
+                                      : "wr_position_pairs(frame, x, y, wr_real(z))"};
     }
     emitter.need("the G-buffer's geometry (depth or position)", {"position.x", "position.y", "position.z"});
     return {{"position.x", "position.y", "position.z"},
             "wr_valid_position(px, py, pz)",
-            "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));"};
+            "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));",
+            "wr_eye_relative_pairs(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)))"};
 }
 
 /// Text that loads and checks one pixel's geometry; `load` is the loading function with its place.
@@ -235,10 +240,16 @@ std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
 }  // namespace
 
 std::string derivative_text(const Emitter& emitter) {
-    if (emitter.available.camera == CameraKind::pinhole)
-        return "        vec3 d = wr_ray(frame, at.x, at.y);\n"
-               "        wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
-    return "        wr_screen_derivatives_general(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n";
+    const Precision precision = emitter.geometry_precision();
+    if (emitter.available.camera != CameraKind::pinhole)
+        return fmt::format("        wr_screen_derivatives_general{}(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n",
+                           precision == Precision::exact ? "_exact" : "");
+    const std::string ray = "        vec3 d = wr_ray(frame, at.x, at.y);\n";
+    if (precision == Precision::exact)
+        return ray + "        wr_screen_derivatives_exact(frame, n, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
+    return ray + fmt::format(
+                     "        wr_screen_derivatives{}(frame, n, d, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n",
+                     precision == Precision::fast ? "_fast" : "");
 }
 
 std::string face_viewer_text(const Emitter& emitter) {
@@ -329,6 +340,13 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     text += "        marked = valid ? (real)(0) : (real)(1);\n";
     text += sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " +
             geometry.position.substr(std::string("vec3 ").size()) + "\n";
+    if (wanted.contains("p_low")) {
+        text +=
+            fmt::format("        wr_pair3 position = {};\n        p = wr_high(position), p_low = wr_low(position);\n",
+                        geometry.pairs);
+        section.writes.insert("p_low");
+        section.operations += 60;
+    }
     section.writes.insert({"valid", "marked", "p"});
     if (normal) {
         text +=

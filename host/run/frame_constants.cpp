@@ -170,12 +170,15 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
     FrameConstants out;
     out.frame = camera_constants(camera, size);
     for (const Origin& origin : plan.origins) {
+        const auto add = [&](double value) {
+            out.origins.push_back(origin.low ? value - static_cast<float>(value) : value);
+        };
         for (std::size_t k = 0; k < 3; ++k) {
             double value = dot(origin.axes[k], eye) + origin.offset[k];
             if (const double period = origin.period[k]; period > 0) value -= period * std::floor(value / period);
-            out.origins.push_back(value);
+            add(value);
         }
-        out.origins.push_back(origin.fourth);
+        add(origin.fourth);
     }
     for (std::size_t i = 0; i < plan.decals.size(); ++i)
         out.decals.push_back(decal_constants(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));

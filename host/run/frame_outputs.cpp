@@ -65,6 +65,10 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
         planes.push_back("out:" + plane);
         channels.push_back(channel_name(plane));
     }
+    if (output.condition) {
+        planes.push_back("out:condition");
+        channels.push_back("condition");
+    }
     std::set<std::string> full;  // depths, positions and ids of the input do not survive as half
     if (output.passthrough) {
         std::set<std::string> replaced;  // the old normals too: who reads the file shall find the new ones

@@ -20,7 +20,10 @@ void read_panel(Table& table, const Figure& figure, Panel& out) {
     table.require("caption");
     table.read("caption", out.caption);
     table.choose("picture", out.picture,
-                 {{"lit", PanelPicture::lit}, {"normal", PanelPicture::normal}, {"before", PanelPicture::before}});
+                 {{"lit", PanelPicture::lit},
+                  {"normal", PanelPicture::normal},
+                  {"before", PanelPicture::before},
+                  {"condition", PanelPicture::condition}});
     table.require("layers");
     table.read("layers", out.layers);
     std::vector<std::string> known;
@@ -62,6 +65,9 @@ Figure load_figure(const std::filesystem::path& file) {
                               "needs a [[panel]], at least caption = \"...\" and layers = [] (to evaluate a scene, "
                               "use \"wrinkle run\")");
     check_pictures(root, out);
+    if (out.scene.budget.max_error)
+        root.document().problems.add(root.line_of("budget"),
+                                     "figures are drawn as they are, not measured; remove [budget]");
     root.finish();
     document.problems.throw_if_any();
     return out;

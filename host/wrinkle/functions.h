@@ -11,6 +11,7 @@
 
 #include "wrinkle/camera.h"
 #include "wrinkle/device.h"
+#include "wrinkle/precision.h"
 
 /// Every kernel function that can be asked by itself, described once: tests, benchmarks, `wrinkle eval` and the
 /// reference page all read this table.
@@ -65,12 +66,6 @@ struct Setting {
     std::string meaning;
     std::vector<double> standard{};  ///< the numbers when none are given; empty: must be given
 };
-
-/// fast: native functions or less compensation, with its own error; standard: what scenes use; exact: compensated
-/// further; fp64: everything in double.
-enum class Precision { fast, standard, exact, fp64 };
-/// "fast", "standard", "exact", "double".
-std::string precision_name(Precision precision);
 
 /// A way to compute the same results.
 struct FunctionVariant {

@@ -363,9 +363,17 @@ struct Lighting {
 
 struct Output {
     bool surface_gradient = false, dp_dx = false, dp_dy = false, marked = false;  ///< beside the normal
+    bool condition = false;    ///< how the normal magnifies input errors; by render(), not by a pass (run/condition.h)
     bool passthrough = false;  ///< copy the channels and metadata of the input
     bool half = false;         ///< 16-bit floats
     bool png = true;           ///< lit.png beside lit.exr when relighting; normal.png too
+};
+
+/// How large an error of the normals may be, and how it is measured: a seeded sample of pixels is evaluated in double.
+struct ErrorBudget {
+    std::optional<double> max_error;  ///< degrees, of any sampled pixel; nothing: standard precision, not measured
+    int sample = 4096;                ///< pixels
+    int seed = 1;
 };
 
 struct Scene {
@@ -375,6 +383,7 @@ struct Scene {
     std::vector<Layer> layers;
     Lighting lighting;
     Output output;
+    ErrorBudget budget;
 };
 
 /// Reads a table of decals (CSV: a row of column names, then a row a decal; README.md lists the columns). Throws Error

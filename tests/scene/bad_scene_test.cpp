@@ -42,6 +42,15 @@ TEST_F(BadScene, Syntax) {
     EXPECT_EQ(problems(std::string("a = \0 1", 7)).size(), 1u);
 }
 
+TEST_F(BadScene, Budgets) {
+    expect_problem_with("[budget]\nsample = 10\n", 5, {"[budget]", "max_error"});
+    for (const char* value : {"0", "-0.1", "181", "inf", "nan", "\"small\""})
+        expect_problem_with(std::string("[budget]\nmax_error = ") + value + "\n", 6, {"max_error", "[budget]"});
+    expect_problem_with("[budget]\nmax_error = 1\nsample = 0\n", 7, {"sample"});
+    expect_problem_with("[budget]\nmax_error = 1\nseed = -1\n", 7, {"seed"});
+    expect_problem_with("[budget]\nmax_erorr = 1\nmax_error = 1\n", 6, {"did you mean \"max_error\"?"});
+}
+
 TEST_F(BadScene, UnknownKeys) {
     EXPECT_EQ(
         problems(frame_ + "[[layer]]\nname = \"cobbles\"\nkind = \"constant\"\ngradient = [0, 0, 1]\nscael = 2\n"),
