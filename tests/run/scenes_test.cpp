@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
         SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light}, SceneCase{"object_normal", {3e-6, 2e-4, 1e-3}, light},
         SceneCase{"parallax", {3e-6, 4e-4, 2e-3}, light}, SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
         SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light}, SceneCase{"triplanar_object", {3e-7, 4e-4, 1.5e-3}, light},
-        SceneCase{"triplanar_planes", {3e-7, 1e-3, 2e-2}, light, true}, SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
+        SceneCase{"triplanar_planes", {3e-7, 8e-4, 5e-3}, light, true}, SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
