@@ -5,6 +5,7 @@
 #include "tests/cases/displacement.h"
 #include "tests/cases/fractal.h"
 #include "tests/cases/height_map.h"
+#include "tests/cases/neighbours.h"
 #include "tests/cases/noise.h"
 #include "tests/cases/object_scale.h"
 #include "tests/cases/parallax.h"
@@ -101,6 +102,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"tangent_frame", tangent_frame_cases},
         {"tangent_normal_slope", tangent_normal_cases},
         {"tangent_normal_slope_xy", tangent_normal_xy_cases},
+        {"texture_derivatives", texcoord_changes_cases},
         {"texture_metres", texture_metres_cases},
         {"texture_offset_to_surface", texture_offset_cases},
         {"texture_step", texcoord_step_cases},

@@ -168,6 +168,9 @@ TEST_F(BadScene, WaysToCombineAndToCompare) {
     expect_problem_with(layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\ncombine = \"rmn\"\n"), 8,
                         {"is \"rmn\"; did you mean \"rnm\"?", "\"whiteout\""});
     expect_problem_with(layer("kind = \"height_channel\"\n"), 5, {"needs the key \"channel\""});
+    expect_problem_with(decal("mode = \"projektor\"\n"), 9, {"did you mean \"projector\"?"});
+    expect_problem_with(height_map("upscale = \"taps\"\nwrap = \"clamp\"\n"), 8, {"\"taps\", which repeats"});
+    expect_problem_with(triplanar("upscale = \"taps\"\n"), 8, {"\"plain\", \"smooth\""});
     expect_problem_with(height_map("project = false\n"), 8, {"does not belong to kind \"height_map\" but to"});
     expect_problem_with(triplanar("mode = \"geiss\"\n"), 8, {"only with content = \"normal\""});
     expect_problem_with(triplanar("mode = \"perlim\"\n"), 8, {"did you mean \"perlin\"?"});
