@@ -103,7 +103,7 @@ void for_each_texture(const Scene& scene, const std::function<void(const Texture
                 if constexpr (requires { visit(bump.texture); }) visit(bump.texture);
                 if constexpr (requires { bump.textures; })
                     for (TextureUse use : bump.textures) {
-                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        use.unit = SlopeUnit::metre;
                         visit(use);
                     }
             },

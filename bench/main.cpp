@@ -7,11 +7,13 @@
 #include <set>
 
 #include "compare.h"
+#include "decals.h"
 #include "functions.h"
 #include "memory.h"
 #include "report.h"
 #include "run/render.h"
 #include "scenes.h"
+#include "volume.h"
 #include "wrinkle/error.h"
 
 namespace {
@@ -19,7 +21,7 @@ namespace {
 using namespace wrinkle;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> all_parts{"memory", "functions", "demo", "scenes", "sizes"};
+const std::vector<std::string> all_parts{"memory", "functions", "demo", "scenes", "decals", "volume", "sizes"};
 
 struct Arguments {
     std::vector<std::string> only;
@@ -72,6 +74,8 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         for (const auto& entry : fs::directory_iterator(WRINKLE_SOURCE_DIR "/bench/scenes")) files.insert(entry.path());
         for (const fs::path& file : files) bench::measure_scene(device, file, size, false, run);
     }
+    if (wanted("decals")) bench::measure_decals(device, size, a.quick, run);
+    if (wanted("volume")) bench::measure_volumes(device, a.quick ? 64 : 256, run);
     if (wanted("sizes"))
         bench::measure_sizes(device, a.scene, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
 }

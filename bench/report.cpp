@@ -95,6 +95,7 @@ void print(const Run& run) {
             fmt::print("{:>10}{:>8}{:>7}{:>7}", "-", "-", "-", "-");
         fmt::print("   {:>9.1e}{:>9.1e}{:>9.1e}{:>9.1e}{:>5}  {}\n", m.error.median, m.error.p99, m.error.max,
                    worst_hard(m), not_finite(m), m.unit);
+        for (const auto& [what, figure] : m.figures) fmt::print("      {:.3g} {}\n", figure, what);
     }
     print_ratios(run);
 }

@@ -93,7 +93,7 @@ std::string emit(LayerText& at, const NoiseLayer& l) {
     at.section.reads.insert("p");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += octave_cost(l) * l.octaves;
-    return fmt::format("        wr_noise_value f = wr_fractal_at({}, p,\n            origins + {}, {}, active);\n",
+    return fmt::format("        wr_field f = wr_fractal_at({}, p,\n            origins + {}, {}, active);\n",
                        fractal_text(l), 4 * first,
                        at.layer.footprint ? "wr_footprint_size(dp_dx, dp_dy)" : "(real)(0)") +
            shape_text(l.shape) + at.volume("f.gradient");

@@ -22,6 +22,10 @@ namespace wrinkle::test {
 namespace fs = std::filesystem;
 using Pixels = std::map<std::string, std::vector<float>>;
 using V = reference::Vec<double>;
+using reference::orthographic_camera;
+using reference::plane_frame;
+using reference::test_camera;
+using reference::tilted_camera;
 
 inline const fs::path data_folder = fs::path(WRINKLE_SOURCE_DIR) / "data";
 
@@ -105,7 +109,7 @@ inline reference::Images images_of(const Scene& scene) {
                 if constexpr (requires { bump.texture; }) add(bump.texture);
                 if constexpr (requires { bump.textures; })
                     for (TextureUse use : bump.textures) {
-                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        use.unit = SlopeUnit::metre;
                         add(use);
                     }
             },
