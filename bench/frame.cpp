@@ -100,7 +100,11 @@ void for_each_texture(const Scene& scene, const std::function<void(const Texture
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { visit(bump.texture); }) visit(bump.texture);
+                if constexpr (requires { visit(bump.texture); })
+                    if (!bump.texture.file.empty()) visit(bump.texture);
+                if constexpr (requires { bump.planes; })
+                    for (const auto& plane : bump.planes)
+                        if (const auto* use = plane ? std::get_if<TextureUse>(&plane->content) : nullptr) visit(*use);
                 if constexpr (requires { bump.textures; })
                     for (TextureUse use : bump.textures) {
                         use.unit = SlopeUnit::metre;

@@ -84,12 +84,21 @@ HeightMap LayerBuilder::bump(const HeightMapLayer& in) {
 }
 
 Triplanar LayerBuilder::bump(const TriplanarLayer& in) {
+    const bool own = in.planes[0] || in.planes[1] || in.planes[2];
+    const bool known = in.texture.content == Content::height || in.texture.content == Content::normal;
+    if (own || !known || in.transform != Placement{} || in.mode != TriplanarMode::surface_gradient ||
+        in.origin != TextureOrigin::lower_left || in.handedness != Handedness::left)
+        throw Unsupported("the plain C++ projects one texture of heights or normals along the axes of the world");
     const auto per_tile = static_cast<float>(1 / in.tile);
     return {source(in.texture, in.texture.wrap), per_tile, in.texture.content == Content::height ? per_tile : 1.0F,
             static_cast<float>(in.sharpness)};
 }
 
 Noise LayerBuilder::bump(const NoiseLayer& in) {
+    const NoiseShape& shape = in.shape;
+    if (in.type != NoiseType::perlin || in.fractal != FractalKind::sum || in.gradient != NoiseGradient::analytic ||
+        shape.remap || shape.power || shape.smoothstep || shape.bias)
+        throw Unsupported("the plain C++ has sums of Perlin noise only");
     Noise out;
     double frequency = in.frequency, gain = 1;
     for (int i = 0; i < in.octaves; ++i, frequency *= in.lacunarity, gain *= in.gain)
@@ -98,6 +107,7 @@ Noise LayerBuilder::bump(const NoiseLayer& in) {
 }
 
 Decal LayerBuilder::bump(const DecalLayer& in) {
+    if (in.mode != DecalMode::surface_gradient) throw Unsupported("the plain C++ bumps the surface's normal only");
     const Vec3 x = unit(in.axis_x), z = unit(cross(x, in.axis_y)), y = cross(z, x);
     const Vec3 eye{camera_.eye.x, camera_.eye.y, camera_.eye.z};
     const Vec3 c{in.center[0] - eye[0], in.center[1] - eye[1], in.center[2] - eye[2]};
@@ -125,6 +135,7 @@ UvTransform LayerBuilder::uv(const UvMapping& mapping) {
 }
 
 SlopeSource LayerBuilder::source(const TextureUse& use, Wrap wrap) {
+    if (use.upscale == Upscale::taps) throw Unsupported("the plain C++ takes no taps of heights");
     if (use.content == Content::height && use.upscale == Upscale::plain) return {nullptr, scalars(use.file, wrap)};
     const bool flip = use.content == Content::normal && use.y_down;
     Slopes& cached = slope_cache_[{use.file, use.content, wrap, flip}];

@@ -66,9 +66,15 @@ bool tangent_derivatives(float3 dp_du, float3 dp_dv, float3 dp_dx, float3 dp_dy,
     return true;
 }
 
-/// The difference to the pixel at (x + step_x, y + step_y), if that one lies on the same surface and chart.
+/// A step over the surface and what the coordinates change by along it.
+struct Change {
+    float2 uv;
+    float3 step;
+};
+
+/// The change to the pixel at (x + step_x, y + step_y), if that one lies on the same surface and chart.
 bool difference(const Frame& frame, const RowWindow& window, int x, int y, int step_x, int step_y, float reach2,
-                float2 uv, float2& out) {
+                float2 uv, Change& out) {
     const int nx = x + step_x, ny = y + step_y;
     if (nx < 0 || ny < 0 || nx >= frame.width || ny >= frame.height) return false;
     const std::size_t j = frame.index(nx, ny);
@@ -80,14 +86,14 @@ bool difference(const Frame& frame, const RowWindow& window, int x, int y, int s
     const float2 uv_j = at(frame.uv, j);
     if (!finite(uv_j.x) || !finite(uv_j.y)) return false;
     const float sign = static_cast<float>(step_x + step_y);
-    out = sign * (uv_j - uv);
-    return std::abs(out.x) < 0.5F && std::abs(out.y) < 0.5F;
+    out = {sign * (uv_j - uv), sign * step};
+    return std::abs(out.uv.x) < 0.5F && std::abs(out.uv.y) < 0.5F;
 }
 
-bool axis_derivative(const Frame& frame, const RowWindow& window, int x, int y, int step_x, int step_y, float3 dp,
-                     float2 uv, float2& out) {
+bool axis_change(const Frame& frame, const RowWindow& window, int x, int y, int step_x, int step_y, float3 dp,
+                 float2 uv, Change& out) {
     const float reach2 = 16.0F * dot(dp, dp);
-    float2 forward, backward;
+    Change forward, backward;
     const bool has_forward = difference(frame, window, x, y, step_x, step_y, reach2, uv, forward);
     const bool has_backward = difference(frame, window, x, y, -step_x, -step_y, reach2, uv, backward);
     if (!has_forward && !has_backward) return false;
@@ -95,13 +101,31 @@ bool axis_derivative(const Frame& frame, const RowWindow& window, int x, int y, 
         out = has_forward ? forward : backward;
         return true;
     }
-    const float f2 = dot(forward, forward), b2 = dot(backward, backward);
+    const float f2 = dot(forward.uv, forward.uv), b2 = dot(backward.uv, backward.uv);
     if (std::fmax(f2, b2) > 4.0F * std::fmin(f2, b2)) {
         out = f2 < b2 ? forward : backward;
     } else {
-        out = 0.5F * (forward + backward);
+        out = {0.5F * (forward.uv + backward.uv), 0.5F * (forward.step + backward.step)};
     }
     return true;
+}
+
+/// The gradient that explains both changes, for steps of dp_dx and dp_dy.
+void derivatives_from_changes(const Change& x, const Change& y, const ScreenDerivatives& d, Uv& out) {
+    out.dst_dx = x.uv;
+    out.dst_dy = y.uv;
+    const float3 normal = cross(d.dp_dx, d.dp_dy);
+    const float square = dot(normal, normal);
+    if (!(square > 0.0F)) return;
+    const auto in_pixels = [&](float3 step) {
+        return (1.0F / square) * float2{dot(cross(step, d.dp_dy), normal), dot(cross(d.dp_dx, step), normal)};
+    };
+    const float2 a = in_pixels(x.step), b = in_pixels(y.step);
+    const float area = a.x * b.y - a.y * b.x;
+    if (!(area > 1.0F / 64.0F)) return;
+    const float inverse = 1.0F / area;
+    out.dst_dx = inverse * (b.y * x.uv - a.y * y.uv);
+    out.dst_dy = inverse * (a.x * y.uv - b.x * x.uv);
 }
 
 }  // namespace
@@ -123,8 +147,12 @@ bool aov_uv(const Frame& frame, UvDerivatives kind, const RowWindow& window, int
     }
     const Decoded& pixel = window.at(x, y);
     const ScreenDerivatives d = frame.screen_derivatives_at(x, y, pixel.p, pixel.n);
-    return axis_derivative(frame, window, x, y, 1, 0, d.dp_dx, out.st, out.dst_dx) &&
-           axis_derivative(frame, window, x, y, 0, 1, d.dp_dy, out.st, out.dst_dy);
+    Change to_x, to_y;
+    if (!axis_change(frame, window, x, y, 1, 0, d.dp_dx, out.st, to_x) ||
+        !axis_change(frame, window, x, y, 0, 1, d.dp_dy, out.st, to_y))
+        return false;
+    derivatives_from_changes(to_x, to_y, d, out);
+    return true;
 }
 
 }  // namespace wrinkle::baseline

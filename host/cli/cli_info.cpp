@@ -52,7 +52,7 @@ void print_text(const GBufferInfo& info) {
     fmt::print("\n");
     for (const Readiness& use : info.uses)
         fmt::print(
-            "  {:<22}{}{}\n", use.use, use.missing.empty() ? "ready" : "lacks " + join(use.missing),
+            "  {:<36}{}{}\n", use.use, use.missing.empty() ? "ready" : "lacks " + join(use.missing),
             use.defaults.empty() ? "" : fmt::format(" (the scene's constants stand in for {})", join(use.defaults)));
 }
 
@@ -90,15 +90,22 @@ void print_json(const GBufferInfo& info) {
 
 struct InfoArguments {
     std::filesystem::path file, camera;
+    int frame = 1;
     bool json = false;
 };
 
 void info(const InfoArguments& arguments) {
     GBufferSource source;
-    source.file = arguments.file;
     std::optional<CameraSource> camera;
+    if (arguments.file.extension() == ".toml") {
+        const Scene scene = load_scene(arguments.file);
+        source = scene.gbuffer;
+        camera = scene.camera;
+    } else {
+        source.file = arguments.file;
+    }
     if (!arguments.camera.empty()) camera.emplace().file = arguments.camera;
-    const GBufferInfo gathered = gather_info(source, camera);
+    const GBufferInfo gathered = gather_info(source, camera, arguments.frame);
     if (arguments.json)
         print_json(gathered);
     else
@@ -111,11 +118,16 @@ void add_info(CLI::App& app) {
     auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand(
         "info", "Print what a G-buffer holds: roles, ranges, camera and its residual, and what each layer kind lacks");
-    command->add_option("FILE", arguments->file, "image file, usually EXR")->required();
+    command
+        ->add_option("FILE", arguments->file,
+                     "image file, usually EXR; or a scene (.toml): its frame, with the roles and the camera it names")
+        ->required();
     command
         ->add_option("--camera", arguments->camera,
-                     "camera file (JSON with view and proj); else FILE.camera.json or the header")
+                     "camera file (JSON with view and proj); else the scene's, FILE.camera.json or the header")
         ->type_name("FILE");
+    command->add_option("--frame", arguments->frame, "which frame, where the name has #### or %04d")
+        ->capture_default_str();
     command->add_flag("--json", arguments->json, "print as JSON");
     command->callback([arguments] { info(*arguments); });
 }

@@ -30,7 +30,4 @@ BuiltProgram build_program(const Device& device, const std::string& text, const 
 /// the driver compiles at the first call is in it too. A cache that cannot be written is no error.
 void save_program(const BuiltProgram& built);
 
-/// WRINKLE_CACHE_DIR, else wrinkle/ under XDG_CACHE_HOME or ~/.cache; empty where none is set.
-std::filesystem::path cache_folder();
-
 }  // namespace wrinkle

@@ -149,6 +149,14 @@ std::vector<Function> source_functions() {
          .settings = {box},
          .results = {result(vector("dh_dp", "1, world", "volume gradient"), {relative})},
          .variants = {{standard, "dh_dp = wr_decal_gradient(decal, slope, weight);", {4e-7}}}},
+        {.name = "decal_bumped_axis",
+         .file = "sources/decal.clh",
+         .summary = "A decal's axis, bumped as if the image lay flat on the box; to compare with",
+         .source = "Mikkelsen 2020, section 4.5, figure 6",
+         .parameters = {pair("slope", "per unit s, t", "of the image")},
+         .settings = {box},
+         .results = {result(direction("normal", "the decal's own normal"), {degrees})},
+         .variants = {{standard, "normal = wr_decal_bumped_axis(decal, slope);", {1e-5}}}},
     };
 }
 

@@ -19,11 +19,7 @@ std::vector<Function> surface_functions() {
          .parameters = {base_normal, p, x, y},
          .settings = {camera},
          .results = {result(dp_dx, {relative, degrees}), result(dp_dy, {relative, degrees})},
-         .variants = {{fast,
-                       "vec3 d = wr_ray(frame, x, y);\n"
-                       "wr_screen_derivatives_fast(frame, n, d, wr_along_ray(p, d), x, y, &dp_dx, &dp_dy);",
-                       {1e-6, 2e-5, 1e-6, 2e-5}},
-                      {standard,
+         .variants = {{standard,
                        "vec3 d = wr_ray(frame, x, y);\n"
                        "wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), x, y, &dp_dx, &dp_dy);",
                        {1e-6, 1e-5, 1e-6, 1e-5}},

@@ -77,7 +77,11 @@ CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::stri
     if (text.empty()) return;
     const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
     if (!json.is_object()) {
-        throw Error(fmt::format("{}: the manifest of cryptomatte {} is not a JSON object of names", origin, layer));
+        damage_ = fmt::format(
+            "{}: the manifest of cryptomatte {} is not a JSON object of names; name objects as \"#\" "
+            "and 8 hex digits, or render the frame anew",
+            origin, layer);
+        return;
     }
     for (const auto& [name, value] : json.items()) {
         if (!value.is_string()) continue;
@@ -95,6 +99,7 @@ std::uint32_t CryptomatteManifest::id(std::string_view name) const {
     if (name.starts_with("#")) {
         if (const auto id = parse_hex(name.substr(1))) return *id;
     }
+    if (!damage_.empty()) throw Error(damage_);
     if (ids_.empty()) return cryptomatte_hash(name);
     const auto found = ids_.find(name);
     if (found != ids_.end()) return found->second;

@@ -100,13 +100,14 @@ std::vector<Readiness> judge(const GBufferReader& reader, bool has_camera) {
     if (reader.roles().screen_space_normals) base.emplace_back("normal in world space (this one is in screen space)");
 
     std::vector<Readiness> uses;
-    for (const char* kind : {"normal_map", "height_map", "object_normal", "derivative_map"})
+    for (const char* kind : {"normal_map", "height_map", "object_normal", "derivative_map", "parallax"})
         uses.push_back({kind, need(base, "uv"), {}});
     std::vector<std::string> tangents = need(need(base, "uv"), "tangent");
     if (!reader.has_role("tangent_sign") && !reader.has_role("bitangent"))
         tangents.emplace_back("tangent_sign or bitangent");
     uses.push_back({"normal_map with frame = \"tangents\"", tangents, {}});
-    for (const char* kind : {"triplanar", "noise", "decal", "volume", "constant"}) uses.push_back({kind, base, {}});
+    for (const char* kind : {"height_channel", "triplanar", "noise", "decal", "decals", "volume", "constant"})
+        uses.push_back({kind, base, {}});
     Readiness lighting{"lighting", base, {}};
     for (const char* role : {"albedo", "roughness"}) {
         if (!reader.has_role(role)) lighting.defaults.emplace_back(role);

@@ -1,7 +1,10 @@
 // The only file that includes OpenVDB's headers: they compile slowly. openvdb.h, with every type of grid, slowest.
 #include <openvdb/Grid.h>
 #include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/tree/Tree.h>
+
+#include <fstream>
 
 #include "io/volume_grid.h"
 
@@ -101,12 +104,38 @@ openvdb::GridBase::Ptr make_grid(const DenseVolume& volume) {
     return grid;
 }
 
+/// Whether the file holds all of its grids. OpenVDB does not look for the end of a file, and takes sizes from what is
+/// not there.
+class Contents : public openvdb::io::Archive {
+public:
+    static bool complete(const fs::path& file) {
+        std::ifstream in(file, std::ios::binary);
+        in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+        try {
+            Contents contents;
+            contents.readHeader(in);
+            contents.setFormatVersion(in);
+            openvdb::MetaMap().readMeta(in);
+            if (!contents.inputHasGridOffsets()) return true;
+            const auto size = static_cast<std::int64_t>(fs::file_size(file));
+            for (auto left = readGridCount(in); left > 0; --left) {
+                openvdb::io::GridDescriptor grid;
+                grid.read(in);
+                if (grid.getEndPos() > size) return false;
+                grid.seekToEnd(in);
+            }
+            return true;
+        } catch (const std::ios::failure&) { return false; }
+    }
+};
+
 }  // namespace
 
 std::uint32_t newest_vdb() { return openvdb::OPENVDB_FILE_VERSION; }
 
 std::vector<ListedGrid> list_vdb(const fs::path& file) {
     openvdb::initialize();
+    if (!Contents::complete(file)) OPENVDB_THROW(openvdb::IoError, "it ends before its grids do");
     openvdb::io::File in(file.string());
     in.open(false);
     std::vector<ListedGrid> grids;

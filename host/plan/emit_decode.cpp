@@ -122,12 +122,14 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
                 neighbours_text(emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))",
                                 "uv_valid", [](const char* axis, const std::string& before, const std::string& after) {
                                     return fmt::format(
-                                        "        uv.{0} = wr_texcoord_difference(self, {1},\n"
+                                        "        wr_texcoord_change to_{0} = wr_texcoord_difference(self, {1},\n"
                                         "                                       {2}, dp_{0}, &usable);\n",
                                         axis, before, after);
                                 });
-        text += "        uv_valid = usable;\n";
-        section.operations += 260;
+        text +=
+            "        wr_texcoord_from_changes(to_dx, to_dy, dp_dx, dp_dy, &uv.dx, &uv.dy);\n"
+            "        uv_valid = usable;\n";
+        section.operations += 340;
     }
     text +=
         "        marked += (valid & !uv_valid) ? (real)(4) : (real)(0);\n"

@@ -21,11 +21,10 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     Section section;
     section.title = fmt::format("{} \"{}\"", layer.kind(), layer.name);
     if (layers.size() > 1) section.title += fmt::format(" and {} more", layers.size() - 1);
-    const std::string who =
-        fmt::format("{}layer \"{}\"", layer.location.empty() ? "" : layer.location + ": ", layer.name);
+    const std::string who = layer_label(layer);
     for (const Layer* each : layers)
         if (!std::isfinite(each->scale))
-            throw Error(fmt::format("layer \"{}\": scale is {}; it must be finite", each->name, each->scale));
+            throw Error(fmt::format("{}: scale is {}; it must be finite", layer_label(*each), each->scale));
     const std::string mask = emit_mask(emitter, layer, section);
     LayerText text{emitter, layer, who, section};
     const std::string bump = std::visit(

@@ -43,7 +43,7 @@ std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, cons
 }
 
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
-    const std::string who = fmt::format("the mask of layer \"{}\"", layer.name);
+    const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
     std::string text = "        real m = 1;\n";
     const auto factor = [&](const std::string& value) {

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include "plan/layer_text.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
-constexpr double kDecal = 75;  // expected operations
+constexpr double kDecal = 75, kMixed = 140;  // expected operations
 }
 
 bool same_loop(const Layer& a, const Layer& b) {
@@ -17,7 +18,8 @@ bool same_loop(const Layer& a, const Layer& b) {
                                    a.mask.cryptomatte == b.mask.cryptomatte && a.mask.channel == b.mask.channel &&
                                    a.mask.invert == b.mask.invert);
     const TextureUse &ta = std::get<DecalLayer>(a.bump).texture, &tb = std::get<DecalLayer>(b.bump).texture;
-    return same_mask && a.footprint == b.footprint && sample_function(ta) == sample_function(tb);
+    const bool same_mode = std::get<DecalLayer>(a.bump).mode == std::get<DecalLayer>(b.bump).mode;
+    return same_mask && same_mode && a.footprint == b.footprint && sample_function(ta) == sample_function(tb);
 }
 
 std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) {
@@ -31,8 +33,14 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
     }
     const Layer& layer = *layers.front();
     const bool facing = at.emitter.options.view_footprint;
+    const bool projector = std::get<DecalLayer>(layer.bump).mode == DecalMode::projector;
+    if (projector && facing) throw Error(at.who + ": mode = \"projector\" mixes normals, and this pass knows none");
     at.section.reads.insert({"p", "dh_dp"});
-    at.section.writes.insert("dh_dp");
+    at.section.writes.insert(projector ? "g" : "dh_dp");
+    if (projector) {
+        at.section.reads.insert("g");
+        at.section.operations += static_cast<double>(layers.size()) * kMixed;
+    }
     if (!facing) at.section.reads.insert("n");
     if (layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     return fmt::format(
@@ -43,12 +51,16 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
             real weight = m * wr_decal_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
             vec2 slope = {}(t, in.st, {});
-            dh_dp = wr_add(dh_dp, wr_decal_gradient(decal, slope, weight));
+            {}
         }}
 )",
         first, first + layers.size(), facing ? "" : " * wr_decal_angle_fade(decal, n)",
         sample_function(std::get<DecalLayer>(layer.bump).texture),
-        layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "(real)(0)");
+        layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "(real)(0)",
+        projector ? "vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                    "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_decal_bumped_axis(decal, slope), "
+                    "weight), below));"
+                  : "dh_dp = wr_add(dh_dp, wr_decal_gradient(decal, slope, weight));");
 }
 
 }  // namespace wrinkle

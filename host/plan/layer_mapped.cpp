@@ -9,7 +9,7 @@ namespace wrinkle {
 
 namespace {
 
-constexpr double kFrame = 70, kScaleDependent = 85, kCombine = 90;  // expected operations
+constexpr double kFrame = 70, kScaleDependent = 85, kCombine = 90, kTaps = 240;  // expected operations
 
 const char* combine_function(Combine combine) {
     switch (combine) {
@@ -43,6 +43,19 @@ bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
            std::ranges::all_of(tangent, [&](const auto& plane) { return emitter.has(plane); }) &&
            (emitter.has("tangent_sign") || emitter.has("bitangent.z"));
 }
+
+std::string emit_taps(LayerText& at, const HeightMapLayer& l) {
+    if (l.texture.wrap == Wrap::clamp) throw Error(at.who + ": upscale = \"taps\" repeats; wrap must not be \"clamp\"");
+    at.section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
+    at.section.writes.insert("g");
+    at.section.operations += kTaps + kScaleDependent;
+    return at.located(l.texture, TexelKind::height, l.uv) +
+           fmt::format(
+               "        vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n"
+               "        g = wr_fma(wr_surface_gradient_from_screen_slope(n, dp_dx, dp_dy, dh), m * {}, g);\n",
+               at.lod("c.dx", "c.dy"), at.strength());
+}
+
 }  // namespace
 
 std::string emit(LayerText& at, const NormalMapLayer& l) {
@@ -72,6 +85,7 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
 }
 
 std::string emit(LayerText& at, const HeightMapLayer& l) {
+    if (l.texture.upscale == Upscale::taps) return emit_taps(at, l);
     std::string text = at.textured(l.texture, l.uv);
     at.section.operations += kScaleDependent;
     return text + fmt::format(

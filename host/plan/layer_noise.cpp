@@ -79,24 +79,27 @@ Periods lattice_period(const NoiseLayer& l, int i) {
 
 }  // namespace
 
-std::string emit(LayerText& at, const NoiseLayer& l) {
+std::string noise_over(LayerText& at, const NoiseLayer& l, const NoiseSpace& space) {
     double frequency = l.frequency;
     std::size_t first = 0;
     for (int i = 0; i < l.octaves; ++i, frequency *= l.lacunarity) {
-        const std::size_t origin =
-            at.emitter.origin({.axes = {Vec3{frequency, 0, 0}, Vec3{0, frequency, 0}, Vec3{0, 0, frequency}},
-                               .offset = {},
-                               .period = lattice_period(l, i),
-                               .fourth = frequency});
-        if (i == 0) first = origin;
+        Origin origin{.period = lattice_period(l, i), .fourth = frequency};
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t j = 0; j < 3; ++j) origin.axes[k][j] = frequency * space.axes[k][j];
+            origin.offset[k] = frequency * space.offset[k];
+        }
+        const std::size_t index = at.emitter.origin(origin);
+        if (i == 0) first = index;
     }
     at.section.reads.insert("p");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += octave_cost(l) * l.octaves;
-    return fmt::format("        wr_field f = wr_fractal_at({}, p,\n            origins + {}, {}, active);\n",
-                       fractal_text(l), 4 * first,
-                       at.layer.footprint ? "wr_footprint_size(dp_dx, dp_dy)" : "(real)(0)") +
-           shape_text(l.shape) + at.volume("f.gradient");
+    return fmt::format("        wr_field f = wr_fractal_at({}, {},\n            origins + {}, {}, {});\n",
+                       fractal_text(l), space.point, 4 * first, at.layer.footprint ? space.footprint : "(real)(0)",
+                       space.active) +
+           shape_text(l.shape);
 }
+
+std::string emit(LayerText& at, const NoiseLayer& l) { return noise_over(at, l, {}) + at.volume("f.gradient"); }
 
 }  // namespace wrinkle

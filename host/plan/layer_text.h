@@ -31,6 +31,16 @@ std::string sample_function(const TextureUse& use);
 /// Expected operations of such a sample.
 double sample_cost(const TextureUse& use);
 
+/// The space that noise is evaluated in, and its kernel text. Three coordinates: axes . p + offset, p in the world.
+struct NoiseSpace {
+    std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    Vec3 offset{};
+    std::string point = "p";  ///< axes . p, p relative to the eye
+    std::string footprint = "wr_footprint_size(dp_dx, dp_dy)", active = "active";
+};
+/// Declares `f`, the value of a noise layer and its gradient along those coordinates.
+std::string noise_over(LayerText& at, const NoiseLayer& l, const NoiseSpace& space);
+
 /// Directions of an object's axes in world space.
 std::array<Vec3, 3> object_axes(const Placement& placement);
 

@@ -1,10 +1,13 @@
 #include "plan/section.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
+#include "io/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -58,13 +61,26 @@ std::size_t Emitter::origin(const Origin& origin) {
 }
 
 void Emitter::need(const std::string& who, const std::vector<std::string>& planes) const {
-    std::string missing;
-    for (const std::string& plane : planes)
-        if (!has(plane)) missing += (missing.empty() ? "" : ", ") + plane;
+    constexpr std::string_view channel = "channel:";
+    std::vector<std::string> missing, roles, channels;
+    std::ranges::remove_copy_if(planes, std::back_inserter(missing), [&](const auto& plane) { return has(plane); });
     if (missing.empty()) return;
-    std::string found;
-    for (const std::string& plane : available.planes) found += (found.empty() ? "" : ", ") + plane;
-    throw Error(fmt::format("{} needs {}; the G-buffer has {}", who, missing, found.empty() ? "nothing" : found));
+    for (const std::string& plane : available.planes)
+        if (plane.starts_with(channel))
+            channels.push_back(plane.substr(channel.size()));
+        else
+            roles.push_back(plane);
+    const auto listed = [](const std::vector<std::string>& names) {
+        return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
+    };
+    if (missing.front().starts_with(channel) && !channels.empty()) {
+        const std::string name = missing.front().substr(channel.size());
+        throw Error(fmt::format("{} needs the channel \"{}\"; nearest: \"{}\"; the G-buffer has {}", who, name,
+                                io::nearest_name(name, channels), listed(channels)));
+    }
+    throw Error(
+        fmt::format("{} needs {}; the G-buffer has {}; if another channel holds it, name that in [gbuffer] roles", who,
+                    listed(missing), listed(roles)));
 }
 
 std::uint32_t Emitter::cryptomatte_hash(const std::string& name, const std::string& who) const {
@@ -75,6 +91,10 @@ std::uint32_t Emitter::cryptomatte_hash(const std::string& name, const std::stri
     for (const auto& [other, hash] : available.cryptomatte) names += (names.empty() ? "" : ", ") + other;
     throw Error(fmt::format("{} names the Cryptomatte object \"{}\"; the file knows {}", who, name,
                             names.empty() ? "no names: give its hash as # and 8 hex digits" : names));
+}
+
+std::string layer_label(const Layer& layer) {
+    return fmt::format("{}{}layer \"{}\"", layer.location, layer.location.empty() ? "" : ": ", layer.name);
 }
 
 std::string literal(double value) {

@@ -57,6 +57,9 @@ std::string literal(const Vec3& v);
 /// Name of a plane as an identifier; different planes have different ones.
 std::string identifier(const std::string& plane);
 
+/// Where a layer comes from and its name, to start a message: scene.toml:12: layer "dents".
+std::string layer_label(const Layer& layer);
+
 /// Emits the layers [first, last) that one section holds: a single layer or consecutive decals.
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 /// How many layers from `first` on go into one section.

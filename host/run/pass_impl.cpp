@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/volume_file.h"
+#include "plan/section.h"
 #include "run/frame_constants.h"
 #include "run/texture_heap.h"
 #include "wrinkle/error.h"
@@ -67,10 +68,7 @@ void add_facts(Available& available, const Layer& layer, const VolumeLayer& volu
     try {
         const VolumeInfo info = volume_info(volume.file, volume.grid);
         available.volumes[{volume.file.string(), volume.grid}] = {info.channels == 3, info.index_from_world};
-    } catch (const Error& error) {
-        throw Error(fmt::format("{}layer \"{}\": {}", layer.location.empty() ? "" : layer.location + ": ", layer.name,
-                                error.what()));
-    }
+    } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
 }
 
 }  // namespace

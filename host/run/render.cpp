@@ -10,6 +10,7 @@
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
+#include "plan/section.h"
 #include "run/frame_outputs.h"
 #include "run/pass_impl.h"
 #include "run/phase_clock.h"
@@ -39,10 +40,7 @@ std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, cons
         if (!layer.mask.cryptomatte || !reader.has_role("cryptomatte")) continue;
         try {
             hashes.emplace(*layer.mask.cryptomatte, reader.cryptomatte().id(*layer.mask.cryptomatte));
-        } catch (const Error& error) {
-            throw Error(fmt::format("{}{}layer \"{}\": {}", layer.location, layer.location.empty() ? "" : ": ",
-                                    layer.name, error.what()));
-        }
+        } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
     }
     return hashes;
 }

@@ -32,6 +32,12 @@ void read_upscale(Table& table, TextureUse& texture) {
     table.choose("upscale", texture.upscale, {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}});
 }
 
+void read_slope_encoding(Table& table, TextureUse& texture) {
+    table.choose("encoding", texture.encoding,
+                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
+    table.choose("slopes", texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
+}
+
 void read_any_texture(Table& table, TextureUse& texture) {
     read_texture_file(table, texture);
     table.choose("content", texture.content, {{"height", Content::height}, {"normal", Content::normal}});

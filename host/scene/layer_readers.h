@@ -21,6 +21,10 @@ void read_green(Table& table, TextureUse& texture);
 void read_upscale(Table& table, TextureUse& texture);
 /// texture, content, y, upscale: for kinds whose texture holds either content
 void read_any_texture(Table& table, TextureUse& texture);
+/// encoding, slopes
+void read_slope_encoding(Table& table, TextureUse& texture);
+/// What makes up a noise: all but scale, blend, footprint, mask and project.
+void read_noise_source(Table& table, NoiseLayer& bump);
 /// wrap, uv
 void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
 

@@ -33,6 +33,8 @@ void read_decal(Table& table, Layer& layer) {
         const auto cosine = [](double angle) { return std::cos(angle * std::numbers::pi / 180); };
         bump.angle_fade = {cosine(degrees[1]), cosine(degrees[0])};
     }
+    table.choose("mode", bump.mode,
+                 {{"surface_gradient", DecalMode::surface_gradient}, {"projector", DecalMode::projector}});
     read_weight(table, layer);
     layer.bump = bump;
 }

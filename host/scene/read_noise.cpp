@@ -82,12 +82,16 @@ void read_shape(Table& table, NoiseShape& shape) {
 
 }  // namespace
 
-void read_noise(Table& table, Layer& layer) {
-    NoiseLayer bump;
+void read_noise_source(Table& table, NoiseLayer& bump) {
     read_type(table, bump);
     read_fractal(table, bump);
     read_simplex(table, bump);
     if (auto shape = table.table("shape", "shape of " + table.where())) read_shape(*shape, bump.shape);
+}
+
+void read_noise(Table& table, Layer& layer) {
+    NoiseLayer bump;
+    read_noise_source(table, bump);
     read_project(table, layer);
     read_weight(table, layer);
     layer.bump = bump;

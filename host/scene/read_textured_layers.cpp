@@ -26,8 +26,11 @@ void read_normal_map(Table& table, Layer& layer) {
 void read_height_map(Table& table, Layer& layer) {
     HeightMapLayer bump;
     read_texture_file(table, bump.texture);
-    read_upscale(table, bump.texture);
+    table.choose("upscale", bump.texture.upscale,
+                 {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}, {"taps", Upscale::taps}});
     read_mapped(table, bump.texture, bump.uv);
+    if (bump.texture.upscale == Upscale::taps && bump.texture.wrap == Wrap::clamp)
+        table.complain("upscale", "is \"taps\", which repeats: wrap must not be \"clamp\"");
     read_weight(table, layer);
     layer.bump = bump;
 }
@@ -44,9 +47,7 @@ void read_derivative_map(Table& table, Layer& layer) {
     DerivativeMapLayer bump;
     read_texture_file(table, bump.texture);
     read_green(table, bump.texture);
-    table.choose("encoding", bump.texture.encoding,
-                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
-    table.choose("slopes", bump.texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
+    read_slope_encoding(table, bump.texture);
     table.choose("bump_scale", bump.auto_scale, {{"metres", false}, {"auto", true}});
     read_mapped(table, bump.texture, bump.uv);
     read_weight(table, layer);

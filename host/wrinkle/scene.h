@@ -29,7 +29,9 @@ namespace wrinkle {
 /// What the texels mean: heights in units of `scale`; tangent-space normals; slopes dh/du, dh/dv; normals in object or
 /// world space.
 enum class Content { height, normal, slope, object_normal };
-enum class Upscale { plain, smooth };  ///< [Mik20 listing 16] isUpscaleHQ false or true
+/// How heights become slopes: [Mik20 listing 16] with isUpscaleHQ false or true; [Mik20 listing 7], three taps a pixel
+/// apart, to compare with, of height maps that repeat only.
+enum class Upscale { plain, smooth, taps };
 enum class Wrap { repeat, clamp };
 enum class Encoding { automatic, sign, unit };  ///< slopes as they are, or 2 texel - 1; automatic: by the file's format
 enum class SlopeUnit { texel, texture, metre };  ///< what a slope of 1 rises over; metre: decals
@@ -136,18 +138,6 @@ enum class Handedness { left, right };
 /// of the normals as they are (Geiss). The last two are there to compare with.
 enum class TriplanarMode { surface_gradient, perlin, geiss };
 
-/// Three planar projections along the axes of the world or of an object, blended by the normal [Mik20 4.4].
-struct TriplanarLayer {
-    static constexpr const char* kind = "triplanar";
-    TextureUse texture;
-    double tile = 1;       ///< metres per repeat of the texture
-    double sharpness = 3;  ///< exponent k of the weights, listing 14
-    TextureOrigin origin = TextureOrigin::lower_left;
-    Handedness handedness = Handedness::left;  ///< left: sampled with (z,y), (x,z), (x,y); right: -z for z
-    TriplanarMode mode = TriplanarMode::surface_gradient;
-    Placement transform{};  ///< tile is in the object's units; heights are in metres all the same
-};
-
 enum class NoiseType { perlin, perlin1985, simplex, worley };
 enum class CellFeature { f1, f2, f2_f1 };  ///< distance to the nearest point, to the second nearest, their difference
 enum class FractalKind { sum, turbulence, ridged };
@@ -177,6 +167,31 @@ struct NoiseLayer {
     NoiseShape shape{};
 };
 
+/// What one plane of a triplanar projection shows in place of the layer's texture: another texture, or noise in the
+/// plane's two coordinates, in metres. The plane cuts its lattice a third of a cell deep: faces of cells lie elsewhere,
+/// in octaves of twice the frequency as well.
+struct PlaneSource {
+    std::variant<TextureUse, NoiseLayer> content;
+    double scale = 1;  ///< times the layer's
+};
+
+/// Three planar projections along the axes of the world or of an object, blended by the normal [Mik20 4.4].
+struct TriplanarLayer {
+    static constexpr const char* kind = "triplanar";
+    TextureUse texture;                                  ///< of the planes that have no source of their own
+    std::array<std::optional<PlaneSource>, 3> planes{};  ///< across x, y and z
+    double tile = 1;                                     ///< metres per repeat of the texture
+    double sharpness = 3;                                ///< exponent k of the weights, listing 14
+    TextureOrigin origin = TextureOrigin::lower_left;
+    Handedness handedness = Handedness::left;  ///< left: sampled with (z,y), (x,z), (x,y); right: -z for z
+    TriplanarMode mode = TriplanarMode::surface_gradient;
+    Placement transform{};  ///< tile is in the object's units; heights are in metres all the same
+};
+
+/// [Mik20 4.5, figure 6] The surface's own normal is bumped; or the projector's axis is, and the two normals are mixed,
+/// as engines do, to compare with.
+enum class DecalMode { surface_gradient, projector };
+
 /// Oriented box projector [Mik20 4.5]. The image spans the box's x and y; it is projected along z.
 struct DecalLayer {
     static constexpr const char* kind = "decal";
@@ -186,6 +201,7 @@ struct DecalLayer {
     Vec3 half_size{0.5, 0.5, 0.5};          ///< metres
     double falloff = 0.1;                   ///< share of the half size over which it fades to the box's faces, [0,1]
     std::array<double, 2> angle_fade{0.25, 0.5};  ///< cosine of normal to axis_z: 0 below the first, 1 above the second
+    DecalMode mode = DecalMode::surface_gradient;
 };
 
 enum class ProjectorShape {

@@ -94,4 +94,23 @@ inline Cases combine_cases(reference::Blending how) {
     return c;
 }
 
+/// Perturbed normals mixed with others, from the same to next to opposite, by any share.
+inline Cases combine_towards_cases() {
+    Cases c{.name = "mixed normals"};
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const V n = random.unit(), unit = normalize(n), v = random.unit();
+        const V g = Random::rounded(normalize(v - unit * dot(v, unit)) * random.magnitude(-6, hard ? 3 : 0));
+        const V below = reference::resolve(unit, g);
+        const V other = Random::rounded(normalize(hard ? random.unit() : below + random.unit() * 0.5L));
+        const real weight = seed % 10 == 0 ? 0 : seed % 10 == 2 ? 1 : static_cast<float>(random.uniform(0, 1));
+        c.add("mixed normals, seed " + std::to_string(seed), hard,
+              1 / length(below * (1 - weight) + normalize(other) * weight));
+        c.in("n", n), c.in("g", g), c.in("other", other), c.in("weight", weight);
+        c.out("combined", weight == 0 ? g : reference::combine_towards(unit, g, normalize(other), weight));
+    }
+    return c;
+}
+
 }  // namespace wrinkle::cases

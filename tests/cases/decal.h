@@ -30,6 +30,8 @@ inline Cases decal_gradient_cases() {
         c.out("dh_dp", g), c.out("sg", want);
         wr_decal decal{};
         put(decal.gradient_s, x), put(decal.gradient_t, y);
+        const V z = Random::rounded(normalize(cross(x, y)));
+        put(decal.axis_z, z), c.out("normal", normalize(z - g));
         add_decal(c, decal);
     }
     return c;

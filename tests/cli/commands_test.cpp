@@ -44,6 +44,12 @@ TEST(Commands, Info) {
     const auto json = nlohmann::json::parse(place.run("info --json '" + file + "'").out);
     EXPECT_EQ(json.at("width"), 120);
     EXPECT_LT(json.at("camera").at("residual_pixels").at("median").get<double>(), 0.1);
+
+    place.write_scene("", file + "\"\nroles = { object = \"none\" }  # ");
+    const Ran scene = place.run("info --frame 7 scene.toml");
+    EXPECT_EQ(scene.code, 0) << scene.err;
+    expect_mentions(scene.out, {"120 x 68", "reproject", "lacks object"});
+    EXPECT_EQ(text.out.find("lacks object"), std::string::npos);
 }
 
 TEST(Commands, Explain) {

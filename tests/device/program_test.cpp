@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "device/kernel_sources.h"
+#include "tests/device/environment.h"
 #include "tests/io/files.h"
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
@@ -16,23 +16,7 @@ namespace wrinkle {
 namespace {
 
 namespace fs = std::filesystem;
-using test::TempFolder;
-
-/// An environment variable for the length of a test.
-class Variable {
-public:
-    Variable(const char* name, const fs::path& value) : name_(name) {
-        if (const char* old = std::getenv(name)) old_ = old;
-        setenv(name, value.c_str(), 1);
-    }
-    ~Variable() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
-    Variable(const Variable&) = delete;
-    Variable& operator=(const Variable&) = delete;
-
-private:
-    const char* name_;
-    std::optional<std::string> old_;
-};
+using test::TempFolder, test::Variable;
 
 const Device& device() {
     static const Device opened = Device::open();
@@ -108,15 +92,6 @@ TEST(Cache, FoldersThatCannotBeWrittenAreNoError) {
     expect_built(BuildSource::compiled, "first");
     expect_built(BuildSource::compiled, "second");
     EXPECT_EQ(read(folder / "file"), "in the way");
-}
-
-TEST(Cache, FolderComesFromTheEnvironment) {
-    const Variable home("HOME", "/somewhere"), cache("XDG_CACHE_HOME", ""), own("WRINKLE_CACHE_DIR", "");
-    EXPECT_EQ(cache_folder(), "/somewhere/.cache/wrinkle");
-    const Variable set("XDG_CACHE_HOME", "/cache");
-    EXPECT_EQ(cache_folder(), "/cache/wrinkle");
-    const Variable mine("WRINKLE_CACHE_DIR", "/mine");
-    EXPECT_EQ(cache_folder(), "/mine");
 }
 
 TEST(KernelSources, AreIncludedOnceAndKeepTheirLines) {

@@ -236,7 +236,9 @@ TEST(Cryptomatte, ManifestBesideTheFile) {
     header.set("cryptomatte/1/manif_file", "names.json");
     EXPECT_EQ(CryptomatteManifest(header, "ViewLayer.CryptoObject", folder / "f.exr").names(), Names{"Rock"});
     header.set("cryptomatte/1/manifest", "{oops");
-    expect_mentions(error_of([&] { CryptomatteManifest(header, "CryptoObject", folder / "f.exr"); }), {"manifest"});
+    const CryptomatteManifest damaged(header, "CryptoObject", folder / "f.exr");
+    expect_mentions(error_of([&] { damaged.id("Rock"); }), {"f.exr", "manifest", "CryptoObject", "hex digits"});
+    EXPECT_EQ(damaged.id("#f9fa0452"), 0xf9fa0452u);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // surface/texcoord_derivative.clh, surface/height_derivative.clh
-#include "tests/cases/texcoord.h"
+#include "tests/cases/neighbours.h"
 
 #include "tests/kernels/check.h"
 
@@ -13,9 +13,19 @@ TEST(TexcoordDerivative, DifferenceOfNeighbours) {
           "wr_neighbour before = {beforeUV, beforeP, beforeN, before_object, before_valid != 0};\n"
           "wr_neighbour after = {afterUV, afterP, afterN, after_object, after_valid != 0};\n"
           "mask usable = dp.x == dp.x;\n"
-          "vec2 d = wr_texcoord_difference(here, before, after, dp, &usable);",
-          {{"difference", xy("d"), ErrorMeasure::absolute, 1e-8, 1e-8},
+          "wr_texcoord_change d = wr_texcoord_difference(here, before, after, dp, &usable);",
+          {{"difference", xy("d.uv"), ErrorMeasure::absolute, 1e-8, 1e-8},
+           {"step", xyz("d.p"), ErrorMeasure::absolute, 1e-8, 1e-8},
            {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
+}
+
+TEST(TexcoordDerivative, DerivativesFromChanges) {
+    check(cases::texcoord_changes_cases(),
+          "wr_texcoord_change x = {change_x, step_x}, y = {change_y, step_y};\n"
+          "vec2 dst_dx, dst_dy;\n"
+          "wr_texcoord_from_changes(x, y, dp_dx, dp_dy, &dst_dx, &dst_dy);",
+          {{"dst_dx", xy("dst_dx"), ErrorMeasure::absolute, 1e-6, 1e-6},
+           {"dst_dy", xy("dst_dy"), ErrorMeasure::absolute, 1e-6, 1e-6}});
 }
 
 TEST(HeightDerivative, DifferenceOfNeighbours) {

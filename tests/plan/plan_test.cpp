@@ -164,7 +164,7 @@ TEST(Plan, NamesTheLayerAndThePlanesItLacks) {
     expect_mentions(refusal(scene_of({masked}), bare), {"moss", "object"});
     masked.mask = {};
     masked.mask.channel = "dirt";
-    expect_mentions(refusal(scene_of({masked}), bare), {"moss", "channel:dirt"});
+    expect_mentions(refusal(scene_of({masked}), bare), {"moss", "dirt"});
     masked.mask = {};
     masked.mask.cryptomatte = "Rock";
     expect_mentions(refusal(scene_of({masked}), bare), {"moss", "crypto.id0"});
@@ -190,7 +190,7 @@ TEST(Plan, HeightsOfAChannelReadTheirNeighboursOnly) {
     EXPECT_TRUE(plan.neighbours);
     EXPECT_EQ(plan.inputs, (Names{"channel:dirt", "depth", "normal.x", "normal.y", "normal.z", "object"}));
     expect_mentions(refusal(scene_of({layer(HeightChannelLayer{"dust"}, "wear")}), everything()),
-                    {"wear", "channel:dust"});
+                    {"wear", "the channel \"dust\"", "nearest: \"dirt\""});
 }
 
 TEST(Plan, UnprojectedGradientsNeedNoProjection) {

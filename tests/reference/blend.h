@@ -67,4 +67,10 @@ Vec<T> combine_gradients(Blending how, Vec<T> n, Vec<T> g, Vec<T> detail) {
     return surface_gradient_from_normal(n, reorient(n, resolve(n, g), resolve(n, detail)));
 }
 
+/// [Mik20 4.5] The gradient of the mean of the perturbed normal and another, `weight` of which is the other's.
+template <class T>
+Vec<T> combine_towards(Vec<T> n, Vec<T> g, Vec<T> other, T weight) {
+    return surface_gradient_from_normal(n, normalize(n - g) * (1 - weight) + other * weight);
+}
+
 }  // namespace wrinkle::reference

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "tests/reference/blend.h"
-#include "tests/reference/layers.h"
 #include "tests/reference/scene_mask.h"
+#include "tests/reference/triplanar_layer.h"
 #include "tests/reference/volume_gradient.h"
 
 namespace wrinkle::reference {
@@ -93,6 +93,12 @@ public:
             if (layer.shift) move(i, layer, layer.scale * *mask, s, out);
             const Contribution<T> c = layer.function(s);
             if (c.marks) out.marked |= Marked::no_uv_derivative;
+            if (c.axis) {
+                const Vec<T> below = surface + surface_gradient_from_volume(s.normal, volume);
+                const Vec<T> other = normalize(*c.axis - c.volume * layer.scale);
+                surface = surface + combine_towards(s.normal, below, other, c.share * *mask) - below;
+                continue;
+            }
             if (layer.combine != Combine::surface_gradient && c.usable) {
                 const Vec<T> below = surface + surface_gradient_from_volume(s.normal, volume);
                 const Vec<T> both =

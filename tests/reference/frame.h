@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -109,8 +110,9 @@ public:
             dx = uv_derivative_from_tangents(base.dp_dx, dp_du, dp_dv);
             dy = uv_derivative_from_tangents(base.dp_dy, dp_du, dp_dv);
         } else {
-            dx = from_neighbours(i, here, 1, i % size_.width, size_.width, base.dp_dx);
-            dy = from_neighbours(i, here, size_.width, i / size_.width, size_.height, base.dp_dy);
+            const auto x = from_neighbours(i, here, 1, i % size_.width, size_.width, base.dp_dx);
+            const auto y = from_neighbours(i, here, size_.width, i / size_.width, size_.height, base.dp_dy);
+            if (x && y) std::tie(dx, dy) = uv_derivatives(*x, *y, base.dp_dx, base.dp_dy);
         }
         if (!dx || !dy || !finite(*dx) || !finite(*dy) || !finite(uv(i))) return std::nullopt;
         return TexDerivative<T>{*dx, *dy};
@@ -192,10 +194,10 @@ private:
     }
 
     /// Pixels i + stride and i - stride lie at index + 1 and index - 1 of `count` along the axis.
-    std::optional<Vec2<T>> from_neighbours(std::size_t i, const Decoded<T>& here, std::size_t stride, std::size_t index,
-                                           std::size_t count, Vec<T> dp) const {
+    std::optional<UvChange<T>> from_neighbours(std::size_t i, const Decoded<T>& here, std::size_t stride,
+                                               std::size_t index, std::size_t count, Vec<T> dp) const {
         const UvPixel<T> centre = uv_pixel(i, here);
-        std::optional<Vec2<T>> forward, backward;
+        std::optional<UvChange<T>> forward, backward;
         if (index + 1 < count) forward = uv_difference(centre, neighbour(i + stride), dp);
         if (index > 0) {
             backward = uv_difference(centre, neighbour(i - stride), dp);

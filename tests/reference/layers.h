@@ -5,9 +5,9 @@
 #include "io/volume_file.h"
 #include "tests/reference/decal.h"
 #include "tests/reference/fractal.h"
+#include "tests/reference/height_taps.h"
 #include "tests/reference/noise_means.h"
 #include "tests/reference/normal_transform.h"
-#include "tests/reference/object_scale.h"
 #include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/projector.h"
@@ -16,7 +16,6 @@
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
 #include "tests/reference/texture_metres.h"
-#include "tests/reference/triplanar.h"
 #include "tests/reference/volume.h"
 
 namespace wrinkle::reference {
@@ -27,6 +26,9 @@ struct Contribution {
     Vec<T> surface, volume;
     bool usable = true;  ///< false: the UV plane has no derivative here; the contribution is zero
     bool marks = false;  ///< the pixel is marked for want of a neighbour
+    /// Bumped by `volume` in place of the surface, and then its share of the normals' mean.
+    std::optional<Vec<T>> axis{};
+    T share = 0;
 };
 
 /// A layer without scale, blend and mask, ready to be asked at any surfel.
@@ -63,6 +65,11 @@ LayerFunction<T> make_layer(const HeightMapLayer& layer, bool footprint, SceneTe
     return [=, texture = textures.slopes(layer.texture, Content::height)](const Surfel<T>& s) -> Contribution<T> {
         const auto at = map_coordinates(layer.uv, s);
         if (!at) return {{}, {}, false};
+        if (layer.texture.upscale == Upscale::taps) {
+            const T lod = texture.lod(at->d, footprint);
+            const Vec2<T> dh = height_taps(*texture.pyramid, at->st, at->d, lod, texture.wrap);
+            return {surface_gradient_from_screen_slope(s.normal, s.d.dp_dx, s.d.dp_dy, dh), {}};
+        }
         const Vec2<T> dh_dst = texture.slope(*at, footprint);
         return {surface_gradient_scale_dependent(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, dh_dst), {}};
     };
@@ -77,70 +84,27 @@ LayerFunction<T> make_layer(const HeightChannelLayer& layer, bool, SceneTextures
     };
 }
 
-/// Object to world: scale, then turn about x, y and z.
+/// Noise with what is composed with it, at a point whose footprint is so long.
 template <class T>
-Columns3<T> placement_matrix(const Placement& at) {
-    const auto turned = [&](Vec<T> v) {
-        const auto turn = [](T& a, T& b, T angle) {
-            const T old = a;
-            a = std::cos(angle) * old - std::sin(angle) * b, b = std::sin(angle) * old + std::cos(angle) * b;
+std::function<NoiseValue<T>(Vec<T> p, T longest)> layer_noise(const NoiseLayer& layer) {
+    const Fractal<T> f{
+        T(layer.frequency), layer.octaves,    T(layer.lacunarity), T(layer.gain), static_cast<Octaves>(layer.fractal),
+        T(layer.offset),    T(layer.feedback)};
+    return
+        [=, noise = octave_noise<T>(layer), means = noise_means<T>(layer), shape = layer.shape](Vec<T> p, T longest) {
+            NoiseValue<T> n = fractal<T>(f, noise, means, p, longest);
+            if (shape.remap) n = shape_remap(n, T((*shape.remap)[0]), T((*shape.remap)[1]));
+            if (shape.power) n = shape_power(n, T(*shape.power));
+            if (shape.smoothstep) n = shape_smoothstep(n, T((*shape.smoothstep)[0]), T((*shape.smoothstep)[1]));
+            if (shape.bias) n = shape_bias(n, T(*shape.bias));
+            return n;
         };
-        turn(v.y, v.z, T(at.rotate[0])), turn(v.z, v.x, T(at.rotate[1])), turn(v.x, v.y, T(at.rotate[2]));
-        return v;
-    };
-    return {turned({T(at.scale[0]), 0, 0}), turned({0, T(at.scale[1]), 0}), turned({0, 0, T(at.scale[2])})};
-}
-
-/// [Mik20 4.4] The projection takes place in object space: points go there by the inverse of M, normals by its
-/// transposed, and gradients come back by the inverse transposed. Options as the paper describes them: sampling
-/// coordinates change sign, and so do the slopes along them.
-template <class T>
-LayerFunction<T> make_layer(const TriplanarLayer& layer, bool footprint, SceneTextures<T>& textures) {
-    return [=, texture = textures.slopes(layer.texture, layer.texture.content)](const Surfel<T>& s) -> Contribution<T> {
-        const Columns3<T> m = placement_matrix<T>(layer.transform);
-        const T det = dot(m.x, cross(m.y, m.z));
-        const Vec<T> rows[] = {cross(m.y, m.z) / det, cross(m.z, m.x) / det, cross(m.x, m.y) / det};  // of the inverse
-        const auto into = [&](Vec<T> v) { return Vec<T>{dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; };
-        const T up = layer.origin == TextureOrigin::upper_left ? T(-1) : T(1);
-        const T z_sign = layer.handedness == Handedness::right ? T(-1) : T(1);
-        const auto slope = [&](Vec2<T> (*plane)(Vec<T>)) {
-            const auto st = [&](Vec<T> p) {
-                const Vec<T> q = into(p);
-                const Vec2<T> c = plane({q.x, q.y, q.z * z_sign}) * (1 / T(layer.tile));
-                return Vec2<T>{c.x, c.y * up};
-            };
-            Vec2<T> d = texture.slope(
-                linear_coordinates(st, s.position - from_array<T>(layer.transform.translate), s.d), footprint);
-            if (layer.mode == TriplanarMode::geiss) {
-                const Vec<T> normal = tangent_normal_from_slope(d);
-                d = {-normal.x, -normal.y};
-            }
-            return Vec2<T>{d.x, d.y * up};
-        };
-        const Vec<T> weights = triplanar_weights(
-            normalize(Vec<T>{dot(m.x, s.normal), dot(m.y, s.normal), dot(m.z, s.normal)}), T(layer.sharpness));
-        Vec<T> g = triplanar_volume_gradient(weights, slope(x_plane_st<T>), slope(y_plane_st<T>), slope(z_plane_st<T>));
-        g.z = g.z * z_sign;
-        const bool height = texture.content == Content::height;  // slopes of normals have no unit
-        const auto back = [&](Vec<T> row, T c) { return (height ? row / T(layer.tile) : normalize(row)) * c; };
-        return {{}, back(rows[0], g.x) + back(rows[1], g.y) + back(rows[2], g.z)};
-    };
 }
 
 template <class T>
 LayerFunction<T> make_layer(const NoiseLayer& layer, bool footprint, SceneTextures<T>&) {
-    const Fractal<T> f{
-        T(layer.frequency), layer.octaves,    T(layer.lacunarity), T(layer.gain), static_cast<Octaves>(layer.fractal),
-        T(layer.offset),    T(layer.feedback)};
-    return [=, noise = octave_noise<T>(layer), means = noise_means<T>(layer),
-            shape = layer.shape](const Surfel<T>& s) -> Contribution<T> {
-        const T longest = footprint ? std::max(length(s.d.dp_dx), length(s.d.dp_dy)) : T(0);
-        NoiseValue<T> n = fractal<T>(f, noise, means, s.position, longest);
-        if (shape.remap) n = shape_remap(n, T((*shape.remap)[0]), T((*shape.remap)[1]));
-        if (shape.power) n = shape_power(n, T(*shape.power));
-        if (shape.smoothstep) n = shape_smoothstep(n, T((*shape.smoothstep)[0]), T((*shape.smoothstep)[1]));
-        if (shape.bias) n = shape_bias(n, T(*shape.bias));
-        return {{}, n.gradient};
+    return [=, noise = layer_noise<T>(layer)](const Surfel<T>& s) -> Contribution<T> {
+        return {{}, noise(s.position, footprint ? std::max(length(s.d.dp_dx), length(s.d.dp_dy)) : T(0)).gradient};
     };
 }
 
@@ -162,7 +126,9 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
         at.st = at.st + Vec2<T>{T(1) / 2, T(1) / 2};
         Vec2<T> d = texture.slope(at, footprint);
         if (texture.content == Content::height) d = {d.x / (2 * box.half_size.x), d.y / (2 * box.half_size.y)};
-        return {{}, decal_volume_gradient(d, box.x, box.y) * weight};
+        const Vec<T> gradient = decal_volume_gradient(d, box.x, box.y);
+        if (layer.mode == DecalMode::projector) return {{}, gradient, true, false, box.z, weight};
+        return {{}, gradient * weight};
     };
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "tests/reference/tangent_frame.h"
 
@@ -23,27 +24,52 @@ bool same_surface(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
     return j.valid && i.object == j.object && dot(i.normal, j.normal) > T(1) / 2 && dot(step, step) <= 16 * dot(dp, dp);
 }
 
-/// uv[j] - uv[i] if j may be differenced with i along an axis of position derivative dp: no object, normal, depth or UV
+/// A step between pixels in space and what the texture coordinates change by along it.
+template <class T>
+struct UvChange {
+    Vec2<T> uv;
+    Vec<T> step;
+    UvChange operator*(T s) const { return {uv * s, step * s}; }
+    UvChange operator+(const UvChange& b) const { return {uv + b.uv, step + b.step}; }
+};
+
+/// From i to j if j may be differenced with i along an axis of position derivative dp: no object, normal, depth or UV
 /// break between them.
 template <class T>
-std::optional<Vec2<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
+std::optional<UvChange<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
     const Vec2<T> d = j.uv - i.uv;
     const T half = T(1) / 2;
     const bool same_chart = std::abs(d.x) < half && std::abs(d.y) < half;
     if (!same_surface(i, j, dp) || !same_chart) return std::nullopt;
-    return d;
+    return UvChange<T>{d, j.position - i.position};
 }
 
-/// The derivative from a forward and a backward difference: the smaller where one is more than twice the other, else
-/// the mean.
+/// The change along an axis from a forward and a backward difference: the one of the smaller UV step where one is more
+/// than twice the other, else the mean.
 template <class T>
-std::optional<Vec2<T>> combine_differences(std::optional<Vec2<T>> forward, std::optional<Vec2<T>> backward) {
+std::optional<UvChange<T>> combine_differences(std::optional<UvChange<T>> forward,
+                                               std::optional<UvChange<T>> backward) {
     if (!forward) return backward;
     if (!backward) return forward;
-    const T f = dot(*forward, *forward), b = dot(*backward, *backward);
+    const T f = dot(forward->uv, forward->uv), b = dot(backward->uv, backward->uv);
     if (f > 4 * b) return backward;
     if (b > 4 * f) return forward;
     return (*forward + *backward) * (T(1) / 2);
+}
+
+/// d(u,v)/dx and d(u,v)/dy: with an orthonormal basis of the tangent plane, the gradient that explains both changes,
+/// times dp_dx and dp_dy. The changes themselves where the steps span less than a 64th of what dp_dx and dp_dy do.
+template <class T>
+std::pair<Vec2<T>, Vec2<T>> uv_derivatives(const UvChange<T>& x, const UvChange<T>& y, Vec<T> dp_dx, Vec<T> dp_dy) {
+    const Vec<T> first = normalize(dp_dx), second = normalize(dp_dy - first * dot(dp_dy, first));
+    const auto flat = [&](Vec<T> v) { return Vec2<T>{dot(v, first), dot(v, second)}; };
+    const auto area = [](Vec2<T> a, Vec2<T> b) { return a.x * b.y - a.y * b.x; };
+    const Vec2<T> a = flat(x.step), b = flat(y.step), right = flat(dp_dx), down = flat(dp_dy);
+    if (!(area(a, b) / area(right, down) > T(1) / 64)) return {x.uv, y.uv};
+    const auto along = [&](Vec2<T> dp) {
+        return x.uv * (area(dp, b) / area(a, b)) + y.uv * (area(a, dp) / area(a, b));
+    };
+    return {along(right), along(down)};
 }
 
 /// [Mik20 listing 7] Change of a height along an axis: to the next pixel, else, where that is not on the surface, from

@@ -7,7 +7,8 @@ namespace {
 
 using V = Vec<real>;
 using V2 = Vec2<real>;
-using Difference = std::optional<V2>;
+using Change = UvChange<real>;
+using Difference = std::optional<Change>;
 
 const UvPixel<real> here{true, 3.0f, {0, 0, 1}, {0, 0, 0}, {0.5L, 0.5L}};
 const V dp{0.1L, 0, 0};
@@ -17,8 +18,9 @@ UvPixel<real> right() { return {true, 3.0f, {0, 0, 1}, {0.1L, 0, 0}, {0.52L, 0.5
 TEST(UvDerivative, NeighbourOnTheSameSurfaceGivesTheDifference) {
     const Difference d = uv_difference(here, right(), dp);
     ASSERT_TRUE(d);
-    EXPECT_NEAR(d->x, 0.02L, 1e-18L);
-    EXPECT_NEAR(d->y, 0.01L, 1e-18L);
+    EXPECT_NEAR(d->uv.x, 0.02L, 1e-18L);
+    EXPECT_NEAR(d->uv.y, 0.01L, 1e-18L);
+    EXPECT_EQ(d->step.x, 0.1L);
 }
 
 TEST(UvDerivative, NoDifferenceAcrossABreak) {
@@ -37,18 +39,33 @@ TEST(UvDerivative, NoDifferenceAcrossABreak) {
 }
 
 TEST(UvDerivative, MeanUnlessOneIsMoreThanTwiceTheOther) {
-    const Difference a = V2{0.02L, 0}, b = V2{0.03L, 0}, far = V2{0.05L, 0};
-    EXPECT_NEAR(combine_differences(a, b)->x, 0.025L, 1e-18L);
-    EXPECT_EQ(combine_differences(a, far)->x, 0.02L);
-    EXPECT_EQ(combine_differences(far, a)->x, 0.02L);
-    EXPECT_EQ(combine_differences(Difference{}, a)->x, 0.02L);
-    EXPECT_EQ(combine_differences(a, Difference{})->x, 0.02L);
+    const Difference a = Change{{0.02L, 0}, {1, 0, 0}}, b = Change{{0.03L, 0}, {3, 0, 0}}, far = Change{{0.05L, 0}, {}};
+    EXPECT_NEAR(combine_differences(a, b)->uv.x, 0.025L, 1e-18L);
+    EXPECT_EQ(combine_differences(a, b)->step.x, 2);
+    EXPECT_EQ(combine_differences(a, far)->uv.x, 0.02L);
+    EXPECT_EQ(combine_differences(far, a)->uv.x, 0.02L);
+    EXPECT_EQ(combine_differences(Difference{}, a)->uv.x, 0.02L);
+    EXPECT_EQ(combine_differences(a, Difference{})->uv.x, 0.02L);
     EXPECT_FALSE(combine_differences(Difference{}, Difference{}));
+}
+
+TEST(UvDerivative, ChangesAlongAnyTwoStepsGiveTheGradientOfALinearMap) {
+    const V dp_dx{0.1L, 0.02L, 0}, dp_dy{-0.03L, 0.2L, 0};
+    const auto map = [](V p) { return V2{3 * p.x - p.y, 0.5L * p.x + 2 * p.y}; };         // of the plane's points
+    const auto change = [&](V step) { return Change{map(step), step + V{0, 0, 0.7L}}; };  // off it: projected
+    const auto [dx, dy] = uv_derivatives(change({0.06L, 0.01L, 0}), change({0.01L, 0.08L, 0}), dp_dx, dp_dy);
+    EXPECT_NEAR(dx.x, map(dp_dx).x, 1e-17L);
+    EXPECT_NEAR(dx.y, map(dp_dx).y, 1e-17L);
+    EXPECT_NEAR(dy.x, map(dp_dy).x, 1e-17L);
+    EXPECT_NEAR(dy.y, map(dp_dy).y, 1e-17L);
+    const Change x = change({0.06L, 0.01L, 0});
+    EXPECT_EQ(uv_derivatives(x, x * real{2}, dp_dx, dp_dy).first.x, x.uv.x) << "parallel steps";
 }
 
 TEST(UvDerivative, LeastSquaresOfTheTangents) {
     const V dp_du{1, 2, 0.5L}, dp_dv{-0.3L, 1, 2};
-    const Difference d = uv_derivative_from_tangents(dp_du * 0.25L - dp_dv * 0.75L + cross(dp_du, dp_dv), dp_du, dp_dv);
+    const std::optional<V2> d =
+        uv_derivative_from_tangents(dp_du * 0.25L - dp_dv * 0.75L + cross(dp_du, dp_dv), dp_du, dp_dv);
     ASSERT_TRUE(d);
     EXPECT_NEAR(d->x, 0.25L, 1e-17L);
     EXPECT_NEAR(d->y, -0.75L, 1e-17L);

@@ -106,7 +106,11 @@ inline reference::Images images_of(const Scene& scene) {
     for (const Layer& layer : scene.layers) {
         std::visit(
             [&](const auto& bump) {
-                if constexpr (requires { bump.texture; }) add(bump.texture);
+                if constexpr (requires { bump.texture; })
+                    if (!bump.texture.file.empty()) add(bump.texture);
+                if constexpr (requires { bump.planes; })
+                    for (const auto& plane : bump.planes)
+                        if (const auto* use = plane ? std::get_if<TextureUse>(&plane->content) : nullptr) add(*use);
                 if constexpr (requires { bump.textures; })
                     for (TextureUse use : bump.textures) {
                         use.unit = SlopeUnit::metre;
@@ -190,12 +194,15 @@ struct Truth {
     }
 };
 
-/// Degrees between the normals of a run and the true ones, valid pixels only; invalid ones must be passed through.
+/// Degrees between the normals of a run and the true ones, valid pixels only, without those left out; invalid ones must
+/// be passed through.
 template <class T>
-Spread normal_error(const std::map<std::string, std::vector<T>>& got, const Truth& truth) {
+Spread normal_error(const std::map<std::string, std::vector<T>>& got, const Truth& truth,
+                    const std::vector<bool>& left_out = {}) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
         const V normal = vec_at(got, "normal", i);
+        if (!left_out.empty() && left_out[i]) continue;
         if (truth.pixels[i].valid)
             errors.push_back(angle_degrees(normal, truth.pixels[i].normal));
         else

@@ -6,9 +6,24 @@ namespace {
 
 struct SceneCase {
     const char* name;
-    Bounds degrees;   ///< of the normals
-    Bounds relative;  ///< of the light, as a share of it (0.01 at least)
+    Bounds degrees;      ///< of the normals
+    Bounds relative;     ///< of the light, as a share of it (0.01 at least)
+    bool jumps = false;  ///< gradients jump somewhere: pixels next to that do not count
 };
+
+/// Whether the true normal turns by more than half a degree when the point moves by a 50,000th of its distance: there,
+/// the gradient jumps, or nearly so, and rounding decides on which side of that a pixel lies.
+std::vector<bool> near_jumps(const HostFrame& frame, const Scene& scene, const Truth& truth) {
+    std::vector<bool> near(frame.count());
+    for (const float nearer : {1 - 2e-5f, 1 + 2e-5f}) {
+        HostFrame moved = frame;
+        for (float& depth : moved.pixels.at("depth")) depth *= nearer;
+        const Truth there(moved, scene);
+        for (std::size_t i = 0; i < near.size(); ++i)
+            near[i] = near[i] || angle_degrees(truth.pixels[i].normal, there.pixels[i].normal) > 0.5;
+    }
+    return near;
+}
 
 class DataScene : public testing::TestWithParam<SceneCase> {};
 
@@ -18,10 +33,14 @@ TEST_P(DataScene, AgreesWithTheReference) {
     const Scene scene = data_scene(expected.name);
     const Truth truth(frame, scene);
     const Pixels got = evaluate_on(frame, scene);
-    expect_within(std::string(expected.name) + ": normal", normal_error(got, truth), expected.degrees, "degrees");
+    const auto left_out = expected.jumps ? near_jumps(frame, scene, truth) : std::vector<bool>(frame.count());
+    EXPECT_LT(std::ranges::count(left_out, true), static_cast<long>(frame.count() / 50));
+    expect_within(std::string(expected.name) + ": normal", normal_error(got, truth, left_out), expected.degrees,
+                  "degrees");
     EXPECT_EQ(marked_differences(got, truth), 0u);
     std::vector<double> errors;
     for (std::size_t i = 0; i < frame.count(); ++i) {
+        if (left_out[i]) continue;
         const V want = truth.lit[i], gap = vec_at(got, "lit", i) - want;
         errors.push_back(length(gap) / std::max(length(want), 0.01));
     }
@@ -29,31 +48,27 @@ TEST_P(DataScene, AgreesWithTheReference) {
 }
 
 // About three times what was measured with PoCL 3.1 at 16 lanes. Heights: slopes are stored as floats, and a step
-// between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it. Its family: the gradients of
-// cells and ridges jump, and a pixel on a jump may get either side's. Combine: planar coordinates lose their frame
-// where the surface stands on their plane.
+// between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it. Combine: planar coordinates
+// lose their frame where the surface stands on their plane.
 constexpr Bounds light{2e-7, 1e-5, 1e-4};
-INSTANTIATE_TEST_SUITE_P(Scenes, DataScene,
-                         testing::Values(SceneCase{"combine", {6e-6, 2e-4, 0.1}, {2e-7, 1e-5, 1e-3}},
-                                         SceneCase{"comparisons", {3e-6, 6e-3, 2e-2}, {2e-7, 1e-4, 5e-4}},
-                                         SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
-                                         SceneCase{"courtyard", {2e-6, 3e-4, 1e-3}, light},
-                                         SceneCase{"decals", {3e-7, 2e-4, 1e-3}, light},
-                                         SceneCase{"decal_table", {3e-7, 7e-5, 2.5e-4}, light},
-                                         SceneCase{"derivative_map", {3e-6, 2e-4, 1e-3}, light},
-                                         SceneCase{"height_channel", {3e-7, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
-                                         SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light},
-                                         SceneCase{"lighting", {3e-7, 3e-4, 1e-3}, {3e-7, 1e-5, 1e-4}},
-                                         SceneCase{"noise", {2e-4, 2e-3, 4e-3}, {1e-6, 3e-5, 1.5e-4}},
-                                         SceneCase{"noise_family", {1e-5, 1.5e-2, 60}, {3e-7, 3e-4, 1}},
-                                         SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light},
-                                         SceneCase{"object_normal", {3e-6, 2e-4, 1e-3}, light},
-                                         SceneCase{"parallax", {3e-6, 4e-4, 2e-3}, light},
-                                         SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
-                                         SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light},
-                                         SceneCase{"triplanar_object", {3e-7, 4e-4, 1.5e-3}, light},
-                                         SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, DataScene,
+    testing::Values(
+        SceneCase{"combine", {6e-6, 2e-4, 0.1}, {2e-7, 1e-5, 1e-3}},
+        SceneCase{"comparisons", {3e-6, 6e-3, 2e-2}, {2e-7, 1e-4, 5e-4}},
+        SceneCase{"constant", {3e-6, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
+        SceneCase{"courtyard", {2e-6, 3e-4, 1e-3}, light}, SceneCase{"decals", {3e-7, 2e-4, 1e-3}, light},
+        SceneCase{"decal_table", {3e-7, 7e-5, 2.5e-4}, light}, SceneCase{"derivative_map", {3e-6, 2e-4, 1e-3}, light},
+        SceneCase{"height_channel", {3e-7, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
+        SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light},
+        SceneCase{"lighting", {3e-7, 3e-4, 1e-3}, {3e-7, 1e-5, 1e-4}},
+        SceneCase{"noise", {2e-4, 2e-3, 4e-3}, {1e-6, 3e-5, 1.5e-4}},
+        SceneCase{"noise_family", {1e-5, 1.5e-2, 4e-2}, {3e-7, 3e-4, 1e-3}, true},
+        SceneCase{"normal_map", {3e-7, 2e-5, 2e-4}, light}, SceneCase{"object_normal", {3e-6, 2e-4, 1e-3}, light},
+        SceneCase{"parallax", {3e-6, 4e-4, 2e-3}, light}, SceneCase{"resolve", {2e-5, 6e-4, 2e-3}, light},
+        SceneCase{"triplanar", {3e-7, 4e-4, 1.5e-3}, light}, SceneCase{"triplanar_object", {3e-7, 4e-4, 1.5e-3}, light},
+        SceneCase{"triplanar_planes", {3e-7, 1e-3, 2e-2}, light, true}, SceneCase{"volume", {3e-7, 2e-3, 6e-3}, light}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace wrinkle::test

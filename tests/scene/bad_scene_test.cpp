@@ -168,6 +168,28 @@ TEST_F(BadScene, WaysToCombineAndToCompare) {
                         {"transform of [[layer]] \"triplanar 1\"", "translate, rotate, scale"});
 }
 
+TEST_F(BadScene, PlanesOfATriplanarProjection) {
+    const auto triplanar = [](const std::string& rest) {
+        return layer("kind = \"triplanar\"\ntexture = \"textures/wall.png\"\n" + rest);
+    };
+    const auto plane = [&](const std::string& text) { return triplanar("planes = { x = { " + text + " } }\n"); };
+    expect_problem_with(triplanar("planes = { w = { noise = {} } }\n"), 8,
+                        {"planes of [[layer]] \"triplanar 1\"", "known keys: x, y, z"});
+    expect_problem_with(plane("scale = 2"), 8, {"plane x of [[layer]] \"triplanar 1\"", "needs the key \"texture\""});
+    expect_problem_with(plane("noise = { octaves = 0 }"), 8, {"noise of plane x of", "from 1 to 16; found 0"});
+    expect_problem_with(plane("noise = { scale = 2 }"), 8, {"noise of plane x of", "unknown key \"scale\""});
+    expect_problem_with(plane("noise = {}, texture = \"textures/wall.png\""), 8, {"\"noise\" exclude each other"});
+    expect_problem_with(plane("texture = \"textures/wall.png\", slopes = \"texel\""), 8,
+                        {"\"slopes\"", "content", "slope"});
+    expect_problem_with(plane("texture = \"textures/wall.png\", y = \"-\""), 8, {"\"normal\" or \"slope\""});
+    expect_problem_with(triplanar("content = \"object_normal\"\nmode = \"perlin\"\n"), 9,
+                        {"must be \"surface_gradient\" with content = \"object_normal\""});
+    expect_problem_with(triplanar("content = \"normal\"\nmode = \"geiss\"\nplanes = { x = { noise = {} } }\n"), 9,
+                        {"only with content = \"normal\""});
+    expect_problem_with(triplanar("planes = { x = { noise = {} }, y = { noise = {} }, z = { noise = {} } }\n"), 7,
+                        {"\"texture\"", "\"planes\" names all three"});
+}
+
 TEST_F(BadScene, AxesThatSpanNoPlane) {
     expect_problem_with(decal("axis_x = [0, 2, 0]\n"), 9, {"\"axis_x\"", "parallel"});
     expect_problem_with(decal("axis_x = [0, 0, 0]\n"), 9, {"\"axis_x\"", "zero"});

@@ -225,6 +225,31 @@ transform = { scale = [1, -1, 2] }
     EXPECT_EQ(std::get<TriplanarLayer>(scene.layers[4].bump).transform.scale, (Vec3{1, -1, 2}));
 }
 
+TEST_F(GoodScene, PlanesOfATriplanarProjection) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "triplanar"
+texture = "textures/wall.png"
+content = "object_normal"
+[layer.planes]
+y = { texture = "textures/wall.png", content = "slope", y = "-", slopes = "texture", encoding = "unit", scale = 2 }
+z = { noise = { type = "worley", feature = "f2-f1", frequency = 7, shape = { power = 2 } } }
+)");
+    const auto& layer = std::get<TriplanarLayer>(scene.layers[0].bump);
+    EXPECT_EQ(layer.texture.content, Content::object_normal);
+    EXPECT_FALSE(layer.planes[0]);
+    const auto& slopes = std::get<TextureUse>(layer.planes[1]->content);
+    EXPECT_EQ(slopes.content, Content::slope);
+    EXPECT_TRUE(slopes.y_down);
+    EXPECT_EQ(slopes.unit, SlopeUnit::texture);
+    EXPECT_EQ(slopes.encoding, Encoding::unit);
+    EXPECT_EQ(layer.planes[1]->scale, 2);
+    const auto& cells = std::get<NoiseLayer>(layer.planes[2]->content);
+    EXPECT_EQ(cells.feature, CellFeature::f2_f1);
+    EXPECT_EQ(cells.frequency, 7);
+    EXPECT_EQ(cells.shape.power, 2);
+    EXPECT_EQ(layer.planes[2]->scale, 1);
+}
+
 TEST_F(GoodScene, LightingAndOutput) {
     const Scene scene = load(full_scene);
     const Lighting& lighting = scene.lighting;

@@ -1,0 +1,46 @@
+// Where built programs are kept, and that they do not pile up.
+#include "device/program_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/device/environment.h"
+#include "tests/io/files.h"
+
+namespace wrinkle {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TempFolder, test::Variable;
+
+TEST(Cache, FolderComesFromTheEnvironment) {
+    const Variable home("HOME", "/somewhere"), cache("XDG_CACHE_HOME", ""), own("WRINKLE_CACHE_DIR", "");
+    EXPECT_EQ(cache_folder(), "/somewhere/.cache/wrinkle");
+    const Variable set("XDG_CACHE_HOME", "/cache");
+    EXPECT_EQ(cache_folder(), "/cache/wrinkle");
+    const Variable mine("WRINKLE_CACHE_DIR", "/mine");
+    EXPECT_EQ(cache_folder(), "/mine");
+}
+
+TEST(Cache, LongestUnusedProgramsGoFirst) {
+    const TempFolder folder;
+    const std::vector<unsigned char> binary(1000, 'x');
+    const auto now = fs::file_time_type::clock::now();
+    for (const int age : {3, 2, 1}) {
+        const fs::path file = folder / (std::to_string(age) + ".program");
+        write_program(file, binary);
+        fs::last_write_time(file, now - std::chrono::hours(age));
+    }
+    fs::copy_file(folder / "3.program", folder / "not_ours.bin");
+    EXPECT_EQ(read_program(folder / "3.program"), binary);  // now the one used last
+    write_program(folder / "0.program", binary, 2500);
+    EXPECT_TRUE(fs::exists(folder / "0.program"));
+    EXPECT_TRUE(fs::exists(folder / "3.program"));
+    EXPECT_FALSE(fs::exists(folder / "2.program"));
+    EXPECT_FALSE(fs::exists(folder / "1.program"));
+    EXPECT_TRUE(fs::exists(folder / "not_ours.bin"));
+}
+
+}  // namespace
+}  // namespace wrinkle
