@@ -29,11 +29,13 @@ std::string row(const Run& run, const Measurement& m) {
     for (const auto& [category, e] : m.hard)
         hard += fmt::format("{}{}: {:.1e}, {:.1e}, {:.1e}{}", hard.empty() ? "" : "<br>", escaped(category), e.median,
                             e.p99, e.max, e.not_finite > 0 ? fmt::format(", {} not finite", e.not_finite) : "");
+    std::string variant = escaped(m.variant);
+    for (const auto& [what, figure] : m.figures) variant += fmt::format("<br>{:.3g} {}", figure, escaped(what));
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td>{}<td>{:.1e}</td><td>{:.1e}</td><td>{:.1e}</td><td>{}</td><td>{}</td>"
         "<td class=hard>{}</td></tr>\n",
-        escaped(m.name), escaped(m.variant), m.lanes, speed, m.error.median, m.error.p99, m.error.max,
-        m.error.not_finite, m.unit, hard);
+        escaped(m.name), variant, m.lanes, speed, m.error.median, m.error.p99, m.error.max, m.error.not_finite, m.unit,
+        hard);
 }
 
 std::string bars_table(const Run& run) {

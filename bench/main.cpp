@@ -12,11 +12,13 @@
 #include "bars.h"
 #include "compare.h"
 #include "contests.h"
+#include "decals.h"
 #include "functions.h"
 #include "memory.h"
 #include "report.h"
 #include "run/render.h"
 #include "scenes.h"
+#include "volume.h"
 #include "wrinkle/error.h"
 
 namespace {
@@ -24,8 +26,8 @@ namespace {
 using namespace wrinkle;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> all_parts{"memory",  "functions", "demo", "scenes",
-                                         "storage", "ablation",  "bars", "sizes"};
+const std::vector<std::string> all_parts{"memory", "functions", "demo",     "scenes", "decals",
+                                         "volume", "storage",   "ablation", "bars",   "sizes"};
 const std::vector<std::string> quick_parts{"memory", "functions", "demo", "scenes", "storage"};
 
 struct Arguments {
@@ -88,6 +90,8 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         bench::measure_cores(device, size, run);
         bench::measure_files(size, run);
     }
+    if (wanted("decals")) bench::measure_decals(device, size, a.quick, run);
+    if (wanted("volume")) bench::measure_volumes(device, a.quick ? 64 : 256, run);
     if (wanted("sizes"))
         bench::measure_sizes(device, a.scene, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
 }

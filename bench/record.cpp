@@ -23,14 +23,23 @@ ErrorStats stats_of(const json& j) {
 json measurement_json(const Measurement& m) {
     json hard = json::object();
     for (const auto& [category, stats] : m.hard) hard[category] = stats_json(stats);
-    return {{"group", m.group},           {"name", m.name},
-            {"variant", m.variant},       {"lanes", m.lanes},
-            {"pixels", m.pixels},         {"seconds", m.seconds.median},
-            {"spread", m.seconds.spread}, {"ns_per_pixel", m.ns_per_pixel()},
-            {"bytes_per_pixel", m.bytes}, {"operations_per_pixel", m.operations},
-            {"error_unit", m.unit},       {"error", stats_json(m.error)},
-            {"error_hard", hard},         {"documented_error", m.bound},
-            {"memory_bytes", m.memory},   {"hash", m.hash}};
+    return {{"group", m.group},
+            {"name", m.name},
+            {"variant", m.variant},
+            {"lanes", m.lanes},
+            {"pixels", m.pixels},
+            {"seconds", m.seconds.median},
+            {"spread", m.seconds.spread},
+            {"ns_per_pixel", m.ns_per_pixel()},
+            {"bytes_per_pixel", m.bytes},
+            {"operations_per_pixel", m.operations},
+            {"error_unit", m.unit},
+            {"error", stats_json(m.error)},
+            {"error_hard", hard},
+            {"documented_error", m.bound},
+            {"memory_bytes", m.memory},
+            {"figures", m.figures},
+            {"hash", m.hash}};
 }
 
 Measurement measurement_of(const json& j) {
@@ -41,6 +50,7 @@ Measurement measurement_of(const json& j) {
     m.error = stats_of(j.at("error"));
     for (const auto& [category, stats] : j.at("error_hard").items()) m.hard[category] = stats_of(stats);
     m.bound = j.at("documented_error"), m.hash = j.at("hash"), m.memory = j.value("memory_bytes", 0.0);
+    if (j.contains("figures")) m.figures = j.at("figures");
     return m;
 }
 

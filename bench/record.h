@@ -23,6 +23,7 @@ struct Measurement {
     std::string unit = "degrees";              ///< of the errors
     ErrorStats error{};                        ///< on regular inputs
     std::map<std::string, ErrorStats> hard{};  ///< by category
+    std::map<std::string, double> figures{};   ///< what else there is to say of it, with the unit in the name
     std::string hash{};                        ///< of the results' bits
     double bound = 0;                          ///< documented error; 0: none
     double memory = 0;                         ///< bytes that the process held at most, above what it began with

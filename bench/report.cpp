@@ -109,6 +109,7 @@ void print(const Run& run) {
         fmt::print("   {:>9.1e}{:>9.1e}{:>9.1e}{:>9.1e}{:>5}  {}{}\n", m.error.median, m.error.p99, m.error.max,
                    worst_hard(m), not_finite(m), m.unit,
                    m.memory > 0 ? fmt::format("; {:.0f} MB held", m.memory * 1e-6) : "");
+        for (const auto& [what, figure] : m.figures) fmt::print("      {:.3g} {}\n", figure, what);
     }
     print_ratios(run);
     print_bars(run);

@@ -65,7 +65,7 @@ wr_fn real wr_hashed_noise(vec3 p)
         wr_store(gradient.z, out_z, at);                                                                     \
     }
 
-WR_NOISE_KERNEL(wr_value_and_gradient, wr_noise_value f = wr_perlin_noise(q); value += f.value;
+WR_NOISE_KERNEL(wr_value_and_gradient, wr_field f = wr_perlin_noise(q); value += f.value;
                 gradient = wr_add(gradient, f.gradient);)
 WR_NOISE_KERNEL(wr_value_by_table, value += wr_perlin_noise(q).value;)
 WR_NOISE_KERNEL(wr_value_by_hash, value += wr_hashed_noise(q);)

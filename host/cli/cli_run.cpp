@@ -162,14 +162,10 @@ void add_run(CLI::App& app) {
                      "largest error of a normal, degrees: computes no more exactly than that takes, and measures it")
         ->type_name("DEGREES")
         ->check(CLI::Range(std::numeric_limits<double>::min(), 180.0));
-    command
-        ->add_option("--precision", arguments->precision,
-                     "of everything: fast, standard (what is usual), exact or double")
+    command->add_option("--precision", arguments->precision, "of everything: standard (what is usual), exact or double")
         ->type_name("NAME")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{{"fast", Precision::fast},
-                                                                             {"standard", Precision::standard},
-                                                                             {"exact", Precision::exact},
-                                                                             {"double", Precision::fp64}}));
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{
+            {"standard", Precision::standard}, {"exact", Precision::exact}, {"double", Precision::fp64}}));
     command->add_option("--sample", arguments->sample, "pixels that are measured, with --max-error (4096)")
         ->type_name("N")
         ->check(CLI::Range(1, std::numeric_limits<int>::max()));

@@ -83,6 +83,8 @@ std::map<std::string, SettingValue> parse_settings(const Function& function, con
                 break;
             case Setting::Kind::height_texture:
             case Setting::Kind::slope_texture:
+            case Setting::Kind::volume:
+            case Setting::Kind::smooth_volume:
                 values[name] = std::filesystem::path(value);
                 break;
             default:

@@ -127,6 +127,11 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
         return static_cast<int>(std::ranges::find(spec.channelnames, name) - spec.channelnames.begin());
     };
     const int n = spec.nchannels, s = channel("b1_dhds"), t = channel("b2_dhdt");
+    if (s < n && t < n && unit == SlopeUnit::metre)
+        throw Error(fmt::format(
+            "{}: its slopes, of maketx --bumpslopes, are per texture; those of decals are metres over metres. "
+            "Use its heights, which are in its first channel: content = \"height\"",
+            file.string()));
     if (s < n && t < n) {  // its t runs down the rows
         const float scale = spec.get_float_attribute("uvslopes_scale");
         return scale == 0 ? SlopeLayout{s, t, width, -height, false, true}

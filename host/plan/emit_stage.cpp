@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "plan/section.h"
+#include "plan/geometry_text.h"
 
 namespace wrinkle {
 
@@ -52,9 +52,7 @@ Section emit_lighting(Emitter& emitter) {
         return true;
     };
     std::string& text = section.body;
-    text = emitter.available.camera == CameraKind::parallel
-               ? "        vec3 v = wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)));\n"
-               : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n";
+    text = fmt::format("        vec3 v = {};\n", to_viewer_text(emitter));
     text += planes({"albedo.r", "albedo.g", "albedo.b"})
                 ? "        vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
                   "                            wr_mask_channel(wr_load(in_albedo_g, at.in)),\n"

@@ -25,10 +25,7 @@ std::vector<Precision> layer_precisions(const Scene& scene, std::size_t index, C
     return {standard, exact};
 }
 
-std::vector<Precision> geometry_precisions(CameraKind camera) {
-    if (camera == CameraKind::pinhole) return {fast, standard, exact};
-    return {standard, exact};
-}
+std::vector<Precision> geometry_precisions() { return {standard, exact}; }
 
 Precision served(const std::vector<Precision>& ladder, Precision wanted) {
     const auto found = std::ranges::find_if(ladder, [&](Precision precision) { return precision >= wanted; });

@@ -8,7 +8,7 @@ namespace wrinkle {
 std::vector<Precision> layer_precisions(const Scene& scene, std::size_t index, CameraKind camera);
 
 /// Those of positions and screen derivatives.
-std::vector<Precision> geometry_precisions(CameraKind camera);
+std::vector<Precision> geometry_precisions();
 
 /// The variant of `ladder` that serves `wanted`.
 Precision served(const std::vector<Precision>& ladder, Precision wanted);

@@ -43,9 +43,7 @@ Precision Emitter::precision(const Layer& layer) const {
                   wanted.empty() ? Precision::standard : wanted.at(index));
 }
 
-Precision Emitter::geometry_precision() const {
-    return served(geometry_precisions(available.camera), options.precision.geometry);
-}
+Precision Emitter::geometry_precision() const { return served(geometry_precisions(), options.precision.geometry); }
 
 std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {

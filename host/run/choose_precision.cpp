@@ -53,7 +53,7 @@ void expect(PrecisionChoice& choice, const std::vector<Choosable>& all) {
 }  // namespace
 
 std::vector<Choosable> choosables(const Scene& scene, CameraKind camera, const DeviceCosts& costs) {
-    std::vector<Choosable> all{choosable(geometry_precisions(camera), {kGeometryKind}, costs)};
+    std::vector<Choosable> all{choosable(geometry_precisions(), {kGeometryKind}, costs)};
     all.front().name = "the geometry";
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         if (std::holds_alternative<ResolveLayer>(scene.layers[i].bump)) continue;

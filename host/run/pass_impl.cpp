@@ -71,17 +71,6 @@ void add_facts(Available& available, const Layer& layer, const VolumeLayer& volu
     } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
 }
 
-/// What a table of all textures and volumes takes must be one buffer.
-void check_memory(const Device& device, std::size_t texels) {
-    const std::size_t bytes = texels * sizeof(float);
-    const auto most = device.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-    if (bytes > most)
-        throw Error(fmt::format(
-            "the textures and volumes of the scene take {:.1f} MiB; {} allows {:.1f} MiB in one "
-            "buffer: use smaller ones, or another device",
-            static_cast<double>(bytes) / (1 << 20), device.info.name, static_cast<double>(most) / (1 << 20)));
-}
-
 }  // namespace
 
 bool same_shape(const Frame& a, const Frame& b) {
@@ -110,7 +99,7 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
         throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
     const auto textures_start = Clock::now();
     TextureHeap heap = load_textures(plan.textures);
-    check_memory(device, heap.texels.size());
+    check_fits(heap, device.info);
     texels = table(device, std::move(heap.texels));
     textures = table(device, std::move(heap.table));
     texture_seconds = seconds_since(textures_start);

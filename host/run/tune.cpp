@@ -102,7 +102,7 @@ private:
         ErrorSample sample = sample_of(scene_);
         Precisions all{.layers = std::vector(scene_.layers.size(), Precision::exact)};
         ErrorStats least;
-        const std::vector<Precision> ladder = geometry_precisions(kind_);
+        const std::vector<Precision> ladder = geometry_precisions();
         for (auto precision = ladder.rbegin(); precision != ladder.rend(); ++precision) {
             all.geometry = *precision;
             time(scene_, {.precision = all}, &sample);

@@ -34,7 +34,7 @@ enum class Content { height, normal, slope, object_normal };
 enum class Upscale { plain, smooth, taps };
 enum class Wrap { repeat, clamp };
 enum class Encoding { automatic, sign, unit };  ///< slopes as they are, or 2 texel - 1; automatic: by the file's format
-enum class SlopeUnit { texel, texture };        ///< what a slope of 1 rises over
+enum class SlopeUnit { texel, texture, metre };  ///< what a slope of 1 rises over; metre: decals
 
 struct TextureUse {
     std::filesystem::path file{};
@@ -386,8 +386,9 @@ struct Scene {
     ErrorBudget budget;
 };
 
-/// Reads a table of decals (CSV: a row of column names, then a row a decal; README.md lists the columns). Throws Error
-/// with the line and column of each mistake, the first 20 of them. `textures`: how many textures rows may name.
+/// Reads a table of decals: CSV, a row of column names, then a row a decal; or .npy, records with fields of these
+/// names. README.md lists the columns. Throws Error with the line (.npy: the row) and column of each mistake, the first
+/// 20 of them. `textures`: how many textures rows may name.
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures);
 
 /// Writes one that load_decals reads back to the same numbers.

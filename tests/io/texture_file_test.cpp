@@ -88,6 +88,9 @@ TEST(TextureFile, SlopesOfTheWrongChannels) {
     write_exr(folder / "b.exr", 4, 4, {"a", "b", "c", "d", "e", "f"});
     expect_mentions(error_of([&] { load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel); }),
                     {"has 6 channels", "maketx --bumpslopes", "b1_dhds"});
+    const auto bumpslopes = std::filesystem::path(WRINKLE_SOURCE_DIR) / "data/textures/ripples_bumpslopes.exr";
+    expect_mentions(error_of([&] { load_slopes(bumpslopes, Encoding::automatic, SlopeUnit::metre); }),
+                    {"ripples_bumpslopes.exr", "per texture", "metres over metres", "content = \"height\""});
 }
 
 TEST(TextureFile, ObjectNormalsBecomeVectors) {

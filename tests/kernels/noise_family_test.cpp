@@ -7,7 +7,7 @@ namespace wrinkle::test {
 namespace {
 
 TEST(Cellular, FindsTheNearestPointsBeyond27Cells) {
-    check(cases::worley_search_cases(), "wr_noise_value n = wr_worley_noise(wr_lattice_at(p), WR_F2);",
+    check(cases::worley_search_cases(), "wr_field n = wr_worley_noise(wr_lattice_at(p), WR_F2);",
           {{"value", {"n.value"}, ErrorMeasure::absolute, 1e-6, 1e-6},
            {"gradient", xyz("n.gradient"), ErrorMeasure::absolute, 1e-6, 1e-6}});
 }
@@ -19,7 +19,7 @@ TEST(Cellular, IsZeroAndFlatOnAFeaturePoint) {
         cases::add_noise(c, fmt::format("point {}", i), true,
                          cell + reference::feature_point<real>(7 * i - 40, i * i, -3 * i), {});
     }
-    check(c, "wr_noise_value n = wr_worley_noise(wr_lattice_at(p), WR_F1);",
+    check(c, "wr_field n = wr_worley_noise(wr_lattice_at(p), WR_F1);",
           {{"value", {"n.value"}, ErrorMeasure::absolute, 0, 0},
            {"gradient", xyz("n.gradient"), ErrorMeasure::absolute, 0, 0}});
 }

@@ -109,7 +109,7 @@ struct TwoNoises {
         scene.layers[1].name = "coarse", scene.layers[1].bump = NoiseLayer{.type = NoiseType::simplex};
         scene.layers[2].name = "tilt", scene.layers[2].bump = ConstantLayer{{0.1, 0, 0}};
         using enum Precision;
-        costs.kinds["geometry"] = {{fast, {1, 0, 1e-3}}, {standard, {2, 0, 0}}, {exact, {3, 0, 0}}, {fp64, {9, 0, 0}}};
+        costs.kinds["geometry"] = {{standard, {2, 0, 1e-3}}, {exact, {3, 0, 0}}, {fp64, {9, 0, 0}}};
         costs.kinds["noise perlin"] = {{standard, {10, 0, 0.5}}, {exact, {15, 0, 0.01}}, {fp64, {40, 0, 0}}};
         costs.kinds["noise simplex"] = {{standard, {20, 0, 0.2}}, {exact, {22, 0, 0.1}}, {fp64, {60, 0, 0}}};
     }
@@ -121,12 +121,12 @@ struct TwoNoises {
 
 TEST(Budget, ChoosesTheCheapestThatTheTableAllows) {
     const TwoNoises made;
-    EXPECT_EQ(made.chosen(1), "geometry fast, layers standard");
-    EXPECT_EQ(made.chosen(0.62), "geometry fast, layers standard but exact \"coarse\"");  // 0.1 for 2 ns
-    EXPECT_EQ(made.chosen(0.1105), "everything in double");
-    EXPECT_EQ(made.chosen(0.112), "geometry fast, layers standard but exact \"fine\", \"coarse\"");
-    EXPECT_EQ(made.chosen(0.1101), "everything in double");
-    EXPECT_EQ(choose_precision(made.all(), 3, 1).ns, 1 + 2 * 10 + 20);
+    EXPECT_EQ(made.chosen(1), "geometry standard, layers standard");
+    EXPECT_EQ(made.chosen(0.62), "geometry standard, layers standard but exact \"coarse\"");  // 0.1 for 2 ns
+    EXPECT_EQ(made.chosen(0.1105), "geometry exact, layers standard but exact \"fine\", \"coarse\"");
+    EXPECT_EQ(made.chosen(0.112), "geometry standard, layers standard but exact \"fine\", \"coarse\"");
+    EXPECT_EQ(made.chosen(0.109), "everything in double");
+    EXPECT_EQ(choose_precision(made.all(), 3, 1).ns, 2 + 2 * 10 + 20);
     EXPECT_EQ(choose_precision(made.all(), 3, 0.01).ns, 9 + 2 * 40 + 60);
 }
 
@@ -142,7 +142,7 @@ TEST(Budget, NamesWhatMissedAndEndsInDouble) {
         stats.max = choice.precision.layers[0] == Precision::exact ? 3 : 7;
         return stats;
     });
-    EXPECT_EQ(budget.report().precision, "geometry fast, layers standard but exact \"fine\"");
+    EXPECT_EQ(budget.report().precision, "geometry standard, layers standard but exact \"fine\"");
     expect_mentions(budget.report().misses.at(0), {"layer \"fine\" did it", "7 degrees", "3 with its next variant"});
     const auto nothing_helps = [&](const PrecisionChoice&) { return bad; };
     budget.raise(bad, nothing_helps);
