@@ -5,13 +5,12 @@
 #include <set>
 
 #include "report.h"
+#include "temporary_folder.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::bench {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Text as gnuplot reads it in double quotes, without markup.
 std::string quoted(const std::string& text) {
@@ -96,34 +95,34 @@ std::map<std::string, std::string> charts(const Run& run) {
     for (const Measurement& m : run.measurements) {
         if (m.seconds.median <= 0) continue;
         if (m.group == "size") by_size.push_back(&m);
-        if (m.group == "function" || m.group == "scene" || m.group == "memory") variants[m.name].push_back(&m);
+        if (m.group == "function" || m.group == "scene" || m.group == "memory")
+            variants[m.name].push_back(&m);
+        else if (m.group == "stack" || m.group == "noise" || m.group == "storage" || m.group == "ablation")
+            variants[m.group + "-" + m.name].push_back(&m);
     }
     std::map<std::string, std::string> scripts{{"roofline", roofline(run)}};
     if (by_size.size() > 1) scripts["sizes"] = sizes(by_size);
     for (const auto& [name, all] : variants)
         if (all.size() > 1) scripts["pareto-" + name] = pareto(name, all);
 
-    std::string pattern = (fs::temp_directory_path() / "wrinkle_charts.XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw Error("cannot make a temporary folder for charts");
-    const fs::path folder = pattern;
+    const TemporaryFolder folder;
     std::string script;
     std::size_t number = 0;
     for (const auto& [name, text] : scripts)
         script += fmt::format(
             "reset\nset grid\nset terminal svg size 560,380 font \"sans-serif,11\" background \"#ffffff\"\n"
             "set output \"{}/{}.svg\"\n{}",
-            folder.string(), number++, text);
-    std::ofstream(folder / "script") << script;
+            folder.path().string(), number++, text);
+    std::ofstream(folder.path() / "script") << script;
     const int status = std::system(
-        fmt::format("gnuplot '{}' 2> '{}'", (folder / "script").string(), (folder / "messages").string()).c_str());
+        fmt::format("gnuplot '{}' 2> '{}'", (folder.path() / "script").string(), (folder.path() / "messages").string())
+            .c_str());
     std::map<std::string, std::string> svgs;
     number = 0;
     for (const auto& [name, text] : scripts) {
-        std::ifstream in(folder / fmt::format("{}.svg", number++));
+        std::ifstream in(folder.path() / fmt::format("{}.svg", number++));
         svgs[name] = {std::istreambuf_iterator<char>(in), {}};
     }
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
     if (status != 0) throw Error("the charts need gnuplot: install the package gnuplot-nox, or leave --report away");
     return svgs;
 }

@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <ctime>
-#include <fstream>
 #include <memory>
 
 #include "baseline/decals.h"
-#include "device/program.h"
+#include "error.h"
 #include "io/texture_file.h"
 #include "run/pass_impl.h"
 #include "run/scatter.h"
@@ -20,6 +18,12 @@ namespace wrinkle::bench {
 namespace {
 
 constexpr std::size_t kErrorSamples = 256;  // the reference asks every decal
+constexpr double kCoverage = 8;             // decals that a pixel lies in, on average
+
+struct Wanted {
+    std::size_t count;
+    bool replace, plain;
+};
 const std::filesystem::path kData = WRINKLE_SOURCE_DIR "/data";
 
 Scene scene_of(std::vector<Projector> rows) {
@@ -36,10 +40,9 @@ Scene scene_of(std::vector<Projector> rows) {
     return scene;
 }
 
-std::vector<Projector> rows_of(const BenchFrame& frame, const DecalMeasurement& wanted, std::size_t count,
-                               double half_size) {
+std::vector<Projector> rows_of(const BenchFrame& frame, const Wanted& wanted, double half_size) {
     ScatterOptions options;
-    options.count = count;
+    options.count = wanted.count;
     options.pixels = true;
     options.spacing = 0.25 * half_size;
     options.half_size = {half_size, half_size};
@@ -55,8 +58,8 @@ struct Resident {
     Pass pass;
     PlaneBuffers in, out;
 
-    Resident(const Device& device, Scene given, const BenchFrame& frame, int lanes)
-        : scene(std::move(given)), pass(evaluate(device, scene, frame.frame, {.lanes = lanes})) {
+    Resident(const Device& device, Scene given, const BenchFrame& frame)
+        : scene(std::move(given)), pass(evaluate(device, scene, frame.frame)) {
         in = upload(device, frame, pass.inputs());
         out = PlaneBuffers(device, pass.outputs(), frame.pixels(), sizeof(float));
     }
@@ -72,35 +75,17 @@ struct Resident {
     }
 };
 
-double processor_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// As race(), by processor time.
-void race_on_processor(std::vector<Contender>& contenders, int repetitions) {
-    std::vector<std::vector<double>> times(contenders.size());
-    for (int r = -1; r < repetitions; ++r)
-        for (std::size_t i = 0; i < contenders.size(); ++i) {
-            const double start = processor_seconds();
-            contenders[i].work();
-            if (r >= 0) times[i].push_back(processor_seconds() - start);
-        }
-    for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].seconds = timing(times[i]);
-}
-
 /// Coverage and what of the lists is for nothing, pixel by pixel.
 struct Coverage {
-    double per_pixel = 0, listed = 0;
+    double per_pixel = 0;  ///< decals that a pixel lies in
+    double listed = 0;     ///< entries of the tiles' lists over pairs of a tile and a decal that touch
+    double bytes = 0;      ///< tables, bounds and lists on the device
 };
 
-Coverage coverage_of(Resident& resident, const BenchFrame& frame, std::vector<std::vector<std::uint32_t>>& lists,
-                     double& bytes) {
+Coverage coverage_of(Resident& resident, const BenchFrame& frame, std::vector<std::vector<std::uint32_t>>& lists) {
     const Size size = frame.frame.size;
     resident.run();
     const BinReport report = resident.pass.impl().bins.read(size.width, size.height, &lists);
-    bytes = static_cast<double>(report.bytes);
     const auto& rows = *std::get<DecalsLayer>(resident.scene.layers[0].bump).rows;
     const auto& order = resident.pass.impl().plan.tables[0].order;
     using namespace reference;
@@ -140,7 +125,7 @@ Coverage coverage_of(Resident& resident, const BenchFrame& frame, std::vector<st
         }
     }
     return {static_cast<double>(inside) / static_cast<double>(frame.pixels()),
-            static_cast<double>(entries) / static_cast<double>(touching)};
+            static_cast<double>(entries) / static_cast<double>(touching), static_cast<double>(report.bytes)};
 }
 
 std::map<std::filesystem::path, baseline::Image> images_of(const DecalsLayer& layer) {
@@ -154,96 +139,112 @@ std::map<std::filesystem::path, baseline::Image> images_of(const DecalsLayer& la
 
 /// Everything of one table that takes part in the race.
 struct Entrant {
-    DecalRow row;
+    std::string name;
+    Coverage coverage;
     std::unique_ptr<Resident> resident;
     baseline::TileLists lists;
     std::unique_ptr<baseline::DecalTable> plain;
+    std::size_t first = 0;  ///< of its contenders
 };
 
-Entrant prepare(const Device& device, const BenchFrame& frame, const DecalMeasurement& wanted, std::size_t count) {
+Entrant prepare(const Device& device, const BenchFrame& frame, const Wanted& wanted) {
     Entrant e;
-    const double pixels = static_cast<double>(frame.pixels());
-    double half = std::sqrt(wanted.coverage * pixels / (2.5 * static_cast<double>(count)));
+    double half =
+        std::sqrt(kCoverage * static_cast<double>(frame.pixels()) / (2.5 * static_cast<double>(wanted.count)));
     for (int round = 0; round < 3; ++round) {  // until as many pixels are covered as wanted
-        e.resident =
-            std::make_unique<Resident>(device, scene_of(rows_of(frame, wanted, count, half)), frame, wanted.lanes);
+        e.resident = std::make_unique<Resident>(device, scene_of(rows_of(frame, wanted, half)), frame);
         e.lists = {DecalBins::kTileWidth, DecalBins::kTileHeight, {}};
-        const Coverage c = coverage_of(*e.resident, frame, e.lists.lists, e.row.bin_megabytes);
-        e.row.coverage = c.per_pixel;
-        e.row.listed = c.listed;
-        if (std::abs(c.per_pixel / wanted.coverage - 1) < 0.02) break;
-        half *= std::sqrt(wanted.coverage / c.per_pixel);
+        e.coverage = coverage_of(*e.resident, frame, e.lists.lists);
+        if (std::abs(e.coverage.per_pixel / kCoverage - 1) < 0.02) break;
+        half *= std::sqrt(kCoverage / e.coverage.per_pixel);
     }
     const auto& layer = std::get<DecalsLayer>(e.resident->scene.layers[0].bump);
-    e.row.decals = layer.rows->size();
-    e.row.name = fmt::format("{} decals of {:.0f} pixels", e.row.decals, 2 * half);
-    e.row.bin_megabytes /= 1e6;
+    e.name = fmt::format("{} decals{}", wanted.count, wanted.replace ? " that replace" : "");
     if (wanted.plain)
         e.plain =
             std::make_unique<baseline::DecalTable>(layer, 1.0, frame.frame.size, frame.frame.camera, images_of(layer));
     return e;
 }
 
+/// Seconds a pixel that a copy of one plane takes at the ceiling of the run.
+double copy_seconds(const Run& run) { return 2 * sizeof(float) / (run.ceilings.copy_gb_s * 1e9); }
+
+double operations_of(const Plan& plan) {
+    double sum = 0;
+    for (const SectionSummary& section : plan.sections) sum += section.operations;
+    return sum;
+}
+
+Normals normals_of(Resident& resident, std::size_t pixels) {
+    Normals got(pixels);
+    resident.run();
+    for (auto [name, plane] : {std::pair{"normal.x", &got.x}, {"normal.y", &got.y}, {"normal.z", &got.z}})
+        std::memcpy(plane->data(), resident.out.map<float>(name, CL_MAP_READ), pixels * sizeof(float));
+    resident.out.unmap();
+    return got;
+}
+
 }  // namespace
 
-std::vector<DecalRow> measure_decals(const Device& device, const DecalMeasurement& wanted) {
-    const BenchFrame frame = Resampler(load_scene(kData / "scenes/decals.toml")).frame(wanted.size);
+void measure_decals(const Device& device, Size size, bool quick, Run& run) {
+    const BenchFrame frame = Resampler(load_scene(kData / "scenes/decals.toml")).frame(size);
     const std::size_t pixels = frame.pixels();
+    std::vector<Wanted> tables{{1000, false, !quick}, {10'000, false, false}};
+    if (!quick) tables.insert(tables.end(), {{100'000, false, true}, {100'000, true, false}});
     std::vector<Entrant> entrants;
-    for (const std::size_t count : wanted.counts) entrants.push_back(prepare(device, frame, wanted, count));
-    Scene none = scene_of({});
-    Resident empty(device, none, frame, wanted.lanes);
+    for (const Wanted& wanted : tables) entrants.push_back(prepare(device, frame, wanted));
+    Resident empty(device, scene_of({}), frame);
     Normals plain(pixels);
     const auto spans = frame.spans();
 
-    std::ifstream text(WRINKLE_SOURCE_DIR "/bench/kernels/memory.cl");
-    const BuiltProgram built =
-        build_program(device, {std::istreambuf_iterator<char>(text), {}}, {device.info.lanes, false});
-    cl::Kernel copy(built.program, "wr_copy");
-    for (cl_uint i = 0; i < 3; ++i) {
-        copy.setArg(i, empty.in.planes().at(fmt::format("normal.{}", "xyz"[i])));
-        copy.setArg(i + 3, empty.out.planes().at(fmt::format("normal.{}", "xyz"[i])));
-    }
-    copy.setArg(6, static_cast<cl_uint>(pixels));
-    const std::size_t items = (pixels / static_cast<std::size_t>(device.info.lanes) + 64) / 64 * 64;
-
-    std::vector<Contender> contenders{{"empty", [&] { empty.run(); }}, {"copy", [&] {
-                                                                            device.queue.enqueueNDRangeKernel(
-                                                                                copy, cl::NullRange, cl::NDRange(items),
-                                                                                cl::NDRange(64));
-                                                                            device.queue.finish();
-                                                                        }}};
+    std::vector<Contender> contenders{{"", [&] { empty.run(); }}};
     for (Entrant& e : entrants) {
-        contenders.push_back({"pass", [&] { e.resident->run(); }});
-        contenders.push_back({"bins", [&] { e.resident->bin(); }});
-        contenders.push_back({"camera", [&] { e.resident->pass.set_camera(frame.frame.camera); }});
+        e.first = contenders.size();
+        contenders.push_back({"standard", [&] { e.resident->run(); }});
+        contenders.push_back({"binning alone", [&] { e.resident->bin(); }});
+        contenders.push_back({"new camera, on the host", [&] { e.resident->pass.set_camera(frame.frame.camera); }});
         if (e.plain)
-            contenders.push_back({"plain", [&] {
+            contenders.push_back({"plain C++, same lists", [&] {
                                       e.plain->run(e.resident->scene, spans, e.lists, {plain.x, plain.y, plain.z});
                                   }});
     }
-    if (wanted.processor_time)
-        race_on_processor(contenders, wanted.repetitions);
-    else
-        race(contenders, wanted.repetitions);
-    std::vector<DecalRow> rows;
-    std::size_t next = 2;
+    race(contenders, run.repetitions);
+
     for (Entrant& e : entrants) {
-        e.row.empty = contenders[0].seconds;
-        e.row.copy = contenders[1].seconds;
-        e.row.pass = contenders[next++].seconds;
-        e.row.bins = contenders[next++].seconds;
-        e.row.camera = contenders[next++].seconds;
-        if (e.plain) e.row.plain = contenders[next++].seconds;
-        Normals got(pixels);
-        e.resident->run();
-        for (auto [name, plane] : {std::pair{"normal.x", &got.x}, {"normal.y", &got.y}, {"normal.z", &got.z}})
-            std::memcpy(plane->data(), e.resident->out.map<float>(name, CL_MAP_READ), pixels * sizeof(float));
-        e.resident->out.unmap();
-        e.row.error = ReferenceSample(e.resident->scene, frame, kErrorSamples, 7).compare(got);
-        rows.push_back(e.row);
+        const ReferenceSample reference(e.resident->scene, frame, kErrorSamples, 7);
+        const Normals got = normals_of(*e.resident, pixels);
+        const Plan& plan = e.resident->pass.impl().plan;
+        const ErrorStats error = reference.compare(got);
+        const double covered = e.coverage.per_pixel * static_cast<double>(pixels);
+        const auto per_decal = [&](const Timing& t) {  // seconds, above the pass without decals
+            return (t.median - contenders[0].seconds.median) / covered;
+        };
+        for (std::size_t i = e.first; i < e.first + (e.plain ? 4 : 3); ++i) {
+            const bool kernel = i < e.first + 2, whole = i == e.first || i == e.first + 3;
+            Measurement m{.group = "decals",
+                          .name = e.name,
+                          .variant = contenders[i].name,
+                          .lanes = kernel ? device.info.lanes : 0,
+                          .pixels = pixels,
+                          .seconds = contenders[i].seconds,
+                          .bytes = whole ? plan.bytes : 0,
+                          .operations = whole ? operations_of(plan) * e.coverage.per_pixel : 0,
+                          .error = error};
+            if (i == e.first + 3) {
+                contenders[i].work();
+                m.error = reference.compare(plain);
+            }
+            if (whole) m.figures["ns a decal and pixel"] = 1e9 * per_decal(m.seconds);
+            if (i == e.first) {
+                m.hash = hash_of(got.x.data(), pixels * sizeof(float));
+                m.figures["copies of a plane, a decal and pixel"] = per_decal(m.seconds) / copy_seconds(run);
+                m.figures["decals a pixel"] = e.coverage.per_pixel;
+                m.figures["entries for each that touches"] = e.coverage.listed;
+                m.figures["MB of tables and lists"] = e.coverage.bytes / 1e6;
+            }
+            run.measurements.push_back(std::move(m));
+        }
     }
-    return rows;
 }
 
 }  // namespace wrinkle::bench

@@ -107,7 +107,7 @@ void for_each_texture(const Scene& scene, const std::function<void(const Texture
                         if (const auto* use = plane ? std::get_if<TextureUse>(&plane->content) : nullptr) visit(*use);
                 if constexpr (requires { bump.textures; })
                     for (TextureUse use : bump.textures) {
-                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        use.unit = SlopeUnit::metre;
                         visit(use);
                     }
             },

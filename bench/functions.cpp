@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "operations.h"
 #include "tests/cases/errors.h"
 #include "tests/cases/registry.h"
 #include "wrinkle/functions.h"
@@ -106,6 +107,12 @@ private:
     ColumnProgram<T> program_;
 };
 
+double operations_of(const ColumnKernel& kernel, const Cases& c) {
+    std::vector<std::string> columns;
+    for (const auto& [name, values] : c.inputs) columns.push_back(name);
+    return counted_operations(column_kernel_source(kernel, columns, c.data));
+}
+
 struct Entry {
     Measurement measurement;
     std::function<void()> work;
@@ -123,7 +130,7 @@ Entry entry_of(const Device& device, const Function& function, const FunctionVar
     m.unit = unit_of(function.results.front().measures.front());
     m.bound = fp64 ? function.fp64_error : variant.max_errors.front();
     m.bytes = static_cast<double>((c.inputs.size() + kernel.outputs.size()) * sizeof(T));
-    m.operations = function.operations;
+    m.operations = options.speed ? operations_of(kernel, c) : 0;
     add_errors(m, function, c, results_of<T>(device, kernel, c, lanes));
     if (options.speed) {
         auto launch = std::make_shared<Launch<T>>(device, kernel, c, lanes, options.rows);

@@ -29,11 +29,27 @@ std::string row(const Run& run, const Measurement& m) {
     for (const auto& [category, e] : m.hard)
         hard += fmt::format("{}{}: {:.1e}, {:.1e}, {:.1e}{}", hard.empty() ? "" : "<br>", escaped(category), e.median,
                             e.p99, e.max, e.not_finite > 0 ? fmt::format(", {} not finite", e.not_finite) : "");
+    std::string variant = escaped(m.variant);
+    for (const auto& [what, figure] : m.figures) variant += fmt::format("<br>{:.3g} {}", figure, escaped(what));
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td>{}<td>{:.1e}</td><td>{:.1e}</td><td>{:.1e}</td><td>{}</td><td>{}</td>"
         "<td class=hard>{}</td></tr>\n",
-        escaped(m.name), escaped(m.variant), m.lanes, speed, m.error.median, m.error.p99, m.error.max,
-        m.error.not_finite, m.unit, hard);
+        escaped(m.name), variant, m.lanes, speed, m.error.median, m.error.p99, m.error.max, m.error.not_finite, m.unit,
+        hard);
+}
+
+std::string bars_table(const Run& run) {
+    if (run.bars.empty()) return {};
+    std::string text =
+        "<h2>bars</h2>\n<table><tr><th>bar<th>verdict<th>measured<th>spread<th>limit<th>p99 error of<th>p99 error to"
+        "<th>unit</tr>\n";
+    for (const Bar& b : run.bars)
+        text += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}%</td><td>{} {:.2f}</td><td>{:.1e}</td><td>{:.1e}</td>"
+            "<td>{}</td></tr>\n",
+            escaped(b.name), b.verdict, b.ratio, 100 * b.spread, b.at_most ? "at most" : "at least", b.limit, b.of_p99,
+            b.to_p99, b.unit);
+    return text + "</table>\n";
 }
 
 }  // namespace
@@ -52,6 +68,7 @@ std::string html(const Run& run, const std::map<std::string, std::string>& chart
         run.ceilings.triad_gb_s, run.ceilings.fma_gflop_s);
     for (const auto& [name, svg] : charts) text += inner_svg(svg);
     text += "</div>\n";
+    text += bars_table(run);
     std::string group;
     for (const Measurement& m : run.measurements) {
         if (m.group != group) {

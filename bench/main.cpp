@@ -1,17 +1,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
+#include "bars.h"
 #include "compare.h"
+#include "contests.h"
+#include "decals.h"
 #include "functions.h"
 #include "memory.h"
 #include "report.h"
 #include "run/render.h"
 #include "scenes.h"
+#include "volume.h"
 #include "wrinkle/error.h"
 
 namespace {
@@ -19,11 +26,13 @@ namespace {
 using namespace wrinkle;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> all_parts{"memory", "functions", "demo", "scenes", "sizes"};
+const std::vector<std::string> all_parts{"memory", "functions", "demo",     "scenes", "decals",
+                                         "volume", "storage",   "ablation", "bars",   "sizes"};
+const std::vector<std::string> quick_parts{"memory", "functions", "demo", "scenes", "storage"};
 
 struct Arguments {
     std::vector<std::string> only;
-    std::string function, device, lanes;
+    std::string function, device;
     fs::path scene, json, report, compare;
     Size size{3840, 2160};
     int repetitions = 9;
@@ -44,7 +53,7 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
         ->capture_default_str()
         ->check(CLI::Range(3, 1000));
     app.add_flag("--quick", a.quick,
-                 "small frames, errors of functions without their speeds: for accuracy, not for speed");
+                 "small frames, errors of functions without their speeds, no contests: for accuracy, not for speed");
     app.add_option("--device", a.device, "OpenCL device; see \"wrinkle devices\"");
     app.add_option("--json", a.json, "also write the run as JSON");
     app.add_option("--report", a.report, "also write run.json, run.csv, charts and index.html to this folder");
@@ -56,8 +65,8 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
 
 void measure(const Device& device, const Arguments& a, bench::Run& run) {
     const auto wanted = [&](const char* part) {
-        return a.only.empty() ? std::string_view(part) != "sizes" || !a.quick
-                              : std::ranges::find(a.only, part) != a.only.end();
+        const std::vector<std::string>& parts = !a.only.empty() ? a.only : a.quick ? quick_parts : all_parts;
+        return std::ranges::find(parts, part) != parts.end();
     };
     const Size size = a.quick ? Size{960, 540} : a.size;
     bench::measure_memory(device, size, run);  // always: the ceilings that shares are of
@@ -73,13 +82,33 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         for (const auto& entry : fs::directory_iterator(WRINKLE_SOURCE_DIR "/bench/scenes")) files.insert(entry.path());
         for (const fs::path& file : files) bench::measure_scene(device, file, size, false, run);
     }
+    if (wanted("storage")) bench::measure_storage(device, size, run);
+    if (wanted("ablation")) bench::measure_ablation(device, demo, size, run);
+    if (wanted("bars")) {
+        bench::measure_stack(device, size, run);
+        bench::measure_noise(device, run);
+        bench::measure_screen(device, size, run);
+        bench::measure_cores(device, size, run);
+        bench::measure_files(size, run);
+    }
+    if (wanted("decals")) bench::measure_decals(device, size, a.quick, run);
+    if (wanted("volume")) bench::measure_volumes(device, a.quick ? 64 : 256, run);
     if (wanted("sizes"))
         bench::measure_sizes(device, demo, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
+}
+
+/// Threads of OpenMP that wait spin, and so take time from the kernels that run next. OpenMP reads its settings before
+/// main, so the program starts once more.
+void wait_quietly(char** argv) {
+    if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+    ::setenv("OMP_WAIT_POLICY", "passive", 1);
+    ::execv("/proc/self/exe", argv);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    wait_quietly(argv);
     CLI::App app{
         "Measures wrinkle's speed beside its error, against plain C++ and the machine's ceilings in the same run.",
         "wrinkle bench"};
@@ -103,6 +132,7 @@ int main(int argc, char** argv) {
         for (int i = 1; i < argc; ++i) run.command += (i > 1 ? " " : "") + std::string(argv[i]);
         run.repetitions = arguments.repetitions;
         measure(device, arguments, run);
+        run.bars = bench::bars_of(run);
         bench::print(run);
         if (!arguments.json.empty()) bench::write_json(run, arguments.json);
         if (!arguments.report.empty()) bench::write_report(run, arguments.report);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,17 +11,20 @@
 
 namespace wrinkle::bench {
 
-/// Times of one thing: median, and the spread between the quartiles as a share of it.
+/// Times of one thing: median, and the spread between the quartiles as a share of it; the single runs, in the order
+/// of a race, where there was one.
 struct Timing {
     double median = 0, spread = 0;
+    std::vector<double> runs{};
 };
 
-inline Timing timing(std::vector<double> times) {
+inline Timing timing(std::vector<double> runs) {
+    std::vector<double> times = runs;
     std::ranges::sort(times);
     const auto at = [&](double q) {
         return times[static_cast<std::size_t>(q * static_cast<double>(times.size() - 1))];
     };
-    return {at(0.5), (at(0.75) - at(0.25)) / at(0.5)};
+    return {at(0.5), (at(0.75) - at(0.25)) / at(0.5), std::move(runs)};
 }
 
 /// A contender: `work` does the whole job once and returns when it is done.
@@ -47,13 +52,25 @@ inline void race(std::vector<Contender>& contenders, int repetitions, std::vecto
 
 /// "3.42x", or what keeps it from being said: the spread is larger than the effect.
 struct Ratio {
-    double value = 0;
+    double value = 0, spread = 0;
     bool meaningful = false;
 };
 
+/// slow / fast. Of one race: the median of the ratios of its rounds, since what disturbs a round disturbs both; else
+/// the ratio of the medians.
 inline Ratio ratio(const Timing& slow, const Timing& fast) {
-    const double value = slow.median / fast.median;
-    return {value, std::abs(value - 1) > std::hypot(slow.spread, fast.spread)};
+    Ratio r{slow.median / fast.median, std::hypot(slow.spread, fast.spread)};
+    if (slow.runs.size() == fast.runs.size() && !slow.runs.empty()) {
+        std::vector<double> rounds;
+        for (std::size_t i = 0; i < slow.runs.size(); ++i) rounds.push_back(slow.runs[i] / fast.runs[i]);
+        const Timing t = timing(rounds);
+        r = {t.median, t.spread};
+    }
+    r.meaningful = std::abs(r.value - 1) > r.spread * r.value;
+    return r;
 }
+
+/// What may be said of a ratio.
+inline std::string text_of(const Ratio& r) { return r.meaningful ? fmt::format("{:.2f}x", r.value) : "not told apart"; }
 
 }  // namespace wrinkle::bench

@@ -37,18 +37,43 @@ json measurement_json(const Measurement& m) {
             {"error", stats_json(m.error)},
             {"error_hard", hard},
             {"documented_error", m.bound},
+            {"memory_bytes", m.memory},
+            {"figures", m.figures},
             {"hash", m.hash}};
 }
 
 Measurement measurement_of(const json& j) {
     Measurement m;
     m.group = j.at("group"), m.name = j.at("name"), m.variant = j.at("variant"), m.lanes = j.at("lanes");
-    m.pixels = j.at("pixels"), m.seconds = {j.at("seconds"), j.at("spread")};
+    m.pixels = j.at("pixels"), m.seconds = {j.at("seconds"), j.at("spread"), {}};
     m.bytes = j.at("bytes_per_pixel"), m.operations = j.at("operations_per_pixel"), m.unit = j.at("error_unit");
     m.error = stats_of(j.at("error"));
     for (const auto& [category, stats] : j.at("error_hard").items()) m.hard[category] = stats_of(stats);
-    m.bound = j.at("documented_error"), m.hash = j.at("hash");
+    m.bound = j.at("documented_error"), m.hash = j.at("hash"), m.memory = j.value("memory_bytes", 0.0);
+    if (j.contains("figures")) m.figures = j.at("figures");
     return m;
+}
+
+json bar_json(const Bar& b) {
+    return {{"name", b.name},
+            {"ratio", b.ratio},
+            {"spread", b.spread},
+            {b.at_most ? "at_most" : "at_least", b.limit},
+            {"verdict", b.verdict},
+            {"of", b.of},
+            {"to", b.to},
+            {"error_p99_of", b.of_p99},
+            {"error_p99_to", b.to_p99},
+            {"error_unit", b.unit}};
+}
+
+Bar bar_of(const json& j) {
+    Bar b{j.at("name"), j.at("verdict"), j.at("ratio"), j.at("spread")};
+    b.at_most = j.contains("at_most");
+    b.limit = j.at(b.at_most ? "at_most" : "at_least");
+    b.of = j.at("of"), b.to = j.at("to");
+    b.of_p99 = j.at("error_p99_of"), b.to_p99 = j.at("error_p99_to"), b.unit = j.at("error_unit");
+    return b;
 }
 
 }  // namespace
@@ -58,7 +83,9 @@ std::string Measurement::key() const { return fmt::format("{}/{}/{}/{}/{}", grou
 json to_json(const Run& run) {
     json list = json::array();
     for (const Measurement& m : run.measurements) list.push_back(measurement_json(m));
-    return {{"wrinkle_bench", 1},
+    json bars = json::array();
+    for (const Bar& b : run.bars) bars.push_back(bar_json(b));
+    return {{"wrinkle_bench", 2},
             {"processor", run.processor},
             {"device", run.device},
             {"command", run.command},
@@ -66,7 +93,9 @@ json to_json(const Run& run) {
             {"ceilings",
              {{"copy_gb_per_s", run.ceilings.copy_gb_s},
               {"triad_gb_per_s", run.ceilings.triad_gb_s},
-              {"fma_gflop_per_s", run.ceilings.fma_gflop_s}}},
+              {"fma_gflop_per_s", run.ceilings.fma_gflop_s},
+              {"streamed_triad_gb_per_s", run.ceilings.streamed_triad_gb_s}}},
+            {"bars", bars},
             {"measurements", list}};
 }
 
@@ -75,12 +104,14 @@ Run read_run(const std::string& file) {
     if (!in) throw Error(fmt::format("cannot read {}", file));
     try {
         const json j = json::parse(in);
-        if (j.at("wrinkle_bench") != 1)
+        if (const int version = j.at("wrinkle_bench"); version != 1 && version != 2)
             throw Error(fmt::format("{}: written by another version of wrinkle bench", file));
-        Run run{j.at("processor"), j.at("device"), j.at("command"), j.at("repetitions"), {}, {}};
+        Run run{j.at("processor"), j.at("device"), j.at("command"), j.at("repetitions"), {}, {}, {}};
         const json& c = j.at("ceilings");
-        run.ceilings = {c.at("copy_gb_per_s"), c.at("triad_gb_per_s"), c.at("fma_gflop_per_s")};
+        run.ceilings = {c.at("copy_gb_per_s"), c.at("triad_gb_per_s"), c.at("fma_gflop_per_s"),
+                        c.value("streamed_triad_gb_per_s", 0.0)};
         for (const json& m : j.at("measurements")) run.measurements.push_back(measurement_of(m));
+        for (const json& b : j.value("bars", json::array())) run.bars.push_back(bar_of(b));
         return run;
     } catch (const json::exception&) {
         throw Error(fmt::format("{} is no report of wrinkle bench; write one with --json or --report", file));

@@ -23,8 +23,10 @@ struct Measurement {
     std::string unit = "degrees";              ///< of the errors
     ErrorStats error{};                        ///< on regular inputs
     std::map<std::string, ErrorStats> hard{};  ///< by category
+    std::map<std::string, double> figures{};   ///< what else there is to say of it, with the unit in the name
     std::string hash{};                        ///< of the results' bits
     double bound = 0;                          ///< documented error; 0: none
+    double memory = 0;                         ///< bytes that the process held at most, above what it began with
 
     double ns_per_pixel() const { return seconds.median / static_cast<double>(pixels) * 1e9; }
     double gb_per_s() const { return bytes * static_cast<double>(pixels) / seconds.median * 1e-9; }
@@ -33,9 +35,20 @@ struct Measurement {
     std::string key() const;
 };
 
+/// A promise about one run: a ratio of what two measurements cost a pixel, and its limit.
+struct Bar {
+    std::string name{}, verdict{};  ///< "met", "missed", "not told apart": the limit lies within the spread
+    double ratio = 0, spread = 0, limit = 0;
+    bool at_most = true;            ///< else at least
+    std::string of{}, to{};         ///< the two, as keys of measurements
+    double of_p99 = 0, to_p99 = 0;  ///< errors of the two
+    std::string unit{};             ///< of these
+};
+
 /// What nothing on this machine can beat, measured in the same run.
 struct Ceilings {
     double copy_gb_s = 0, triad_gb_s = 0, fma_gflop_s = 0;
+    double streamed_triad_gb_s = 0;  ///< in C++, with stores that go past the cache
 };
 
 struct Run {
@@ -43,6 +56,7 @@ struct Run {
     int repetitions = 0;
     Ceilings ceilings;
     std::vector<Measurement> measurements;
+    std::vector<Bar> bars{};
 };
 
 nlohmann::json to_json(const Run& run);

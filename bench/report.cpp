@@ -37,7 +37,7 @@ double worst_hard(const Measurement& m) {
 std::string csv(const Run& run) {
     std::string text =
         "group,name,variant,lanes,pixels,ns_per_pixel,spread,gb_per_s,share_of_copy,gflop_per_s,share_of_fma,"
-        "error_unit,inputs,error_median,error_p99,error_max,samples,not_finite,documented_error,hash\n";
+        "error_unit,inputs,error_median,error_p99,error_max,samples,not_finite,documented_error,memory,hash\n";
     for (const Measurement& m : run.measurements) {
         const bool timed = m.seconds.median > 0;
         const auto row = [&](const std::string& inputs, const ErrorStats& e) {
@@ -48,8 +48,8 @@ std::string csv(const Run& run) {
                                     m.gflop_per_s() / run.ceilings.fma_gflop_s);
             else
                 text += ",,,,,,";
-            text += fmt::format("{},\"{}\",{:.4g},{:.4g},{:.4g},{},{},{:.3g},{}\n", m.unit, inputs, e.median, e.p99,
-                                e.max, e.samples, e.not_finite, m.bound, m.hash);
+            text += fmt::format("{},\"{}\",{:.4g},{:.4g},{:.4g},{},{},{:.3g},{:.0f},{}\n", m.unit, inputs, e.median,
+                                e.p99, e.max, e.samples, e.not_finite, m.bound, m.memory, m.hash);
         };
         row("regular", m.error);
         for (const auto& [category, stats] : m.hard) row(category, stats);
@@ -57,29 +57,42 @@ std::string csv(const Run& run) {
     return text;
 }
 
+/// What of a group is compared with what else.
+struct Compared {
+    const char *group, *base;
+};
+
 void print_ratios(const Run& run) {
     bool title = false;
-    for (const Measurement& slow : run.measurements)
-        for (const Measurement& fast : run.measurements) {
-            if (slow.group != "scene" || fast.group != "scene" || slow.name != fast.name || fast.variant != "fused" ||
-                slow.variant == "fused")
-                continue;
-            if (!title) fmt::print("\nratios\n"), title = true;
-            const Ratio r = ratio(slow.seconds, fast.seconds);
-            const std::string what = fmt::format("{}: {} / fused", slow.name, slow.variant);
-            if (r.meaningful)
-                fmt::print("  {:<58}{:>7.2f}x\n", what, r.value);
-            else
-                fmt::print("  {:<58} not told apart: the spread is larger than the effect\n", what);
-        }
+    for (const Compared& compared : {Compared{"scene", "fused"}, Compared{"ablation", "only what it needs"}})
+        for (const Measurement& slow : run.measurements)
+            for (const Measurement& fast : run.measurements) {
+                if (slow.group != compared.group || fast.group != compared.group || slow.name != fast.name ||
+                    fast.variant != compared.base || slow.variant == compared.base)
+                    continue;
+                if (!title) fmt::print("\nratios\n"), title = true;
+                fmt::print("  {:<58}{:>8}  p99 {:.1e} / {:.1e} {}\n",
+                           fmt::format("{}: {} / {}", slow.name, slow.variant, fast.variant),
+                           text_of(ratio(slow.seconds, fast.seconds)), slow.error.p99, fast.error.p99, slow.unit);
+            }
+}
+
+void print_bars(const Run& run) {
+    if (run.bars.empty()) return;
+    fmt::print("\n{:<38}{:>9}{:>8}{:>11}  {:<16}{:>9}{:>9}  {}\n", "bars", "measured", "spread", "limit", "", "p99 of",
+               "p99 to", "error in");
+    for (const Bar& b : run.bars)
+        fmt::print("  {:<36}{:>8.2f}x{:>7.1f}%{:>4}{:>6.2f}x  {:<16}{:>9.1e}{:>9.1e}  {}\n", b.name, b.ratio,
+                   100 * b.spread, b.at_most ? "<=" : ">=", b.limit, b.verdict, b.of_p99, b.to_p99, b.unit);
 }
 
 }  // namespace
 
 void print(const Run& run) {
     fmt::print("{}; {}; {} repetitions, medians\n", run.processor, run.device, run.repetitions);
-    fmt::print("ceilings: copy {:.1f} GB/s, triad {:.1f} GB/s, fma {:.0f} Gflop/s\n", run.ceilings.copy_gb_s,
-               run.ceilings.triad_gb_s, run.ceilings.fma_gflop_s);
+    fmt::print("ceilings: copy {:.1f} GB/s, triad {:.1f} GB/s ({:.1f} in C++), fma {:.0f} Gflop/s\n",
+               run.ceilings.copy_gb_s, run.ceilings.triad_gb_s, run.ceilings.streamed_triad_gb_s,
+               run.ceilings.fma_gflop_s);
     std::string group;
     for (const Measurement& m : run.measurements) {
         if (m.group != group) {
@@ -93,10 +106,13 @@ void print(const Run& run) {
                        100 * m.gb_per_s() / run.ceilings.copy_gb_s, 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s);
         else
             fmt::print("{:>10}{:>8}{:>7}{:>7}", "-", "-", "-", "-");
-        fmt::print("   {:>9.1e}{:>9.1e}{:>9.1e}{:>9.1e}{:>5}  {}\n", m.error.median, m.error.p99, m.error.max,
-                   worst_hard(m), not_finite(m), m.unit);
+        fmt::print("   {:>9.1e}{:>9.1e}{:>9.1e}{:>9.1e}{:>5}  {}{}\n", m.error.median, m.error.p99, m.error.max,
+                   worst_hard(m), not_finite(m), m.unit,
+                   m.memory > 0 ? fmt::format("; {:.0f} MB held", m.memory * 1e-6) : "");
+        for (const auto& [what, figure] : m.figures) fmt::print("      {:.3g} {}\n", figure, what);
     }
     print_ratios(run);
+    print_bars(run);
 }
 
 void write_json(const Run& run, const fs::path& file) { write_text(file, to_json(run).dump(1) + "\n"); }

@@ -9,6 +9,7 @@
 #include "device/program.h"
 #include "run/plane_buffers.h"
 #include "run/volume_heap.h"
+#include "tests/reference/volume.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::bench {
@@ -72,34 +73,19 @@ Points random_walk(int size) {
     return points;
 }
 
-/// The trilinear gradient in double.
-std::array<double, 3> exact(const Points& points, std::size_t i) {
-    int cell[3];
-    double t[3];
-    for (std::size_t k = 0; k < 3; ++k)
-        cell[k] = static_cast<int>(std::floor(points[k][i])), t[k] = points[k][i] - cell[k];
-    std::array<double, 3> g{};
-    for (int corner = 0; corner < 8; ++corner) {
-        const int at[] = {corner & 1, corner >> 1 & 1, corner >> 2};
-        const double v = voxel(cell[0] + at[0], cell[1] + at[1], cell[2] + at[2]);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            double weight = 1;
-            for (std::size_t k = 0; k < 3; ++k) weight *= k == axis ? (at[k] ? 1.0 : -1.0) : (at[k] ? t[k] : 1 - t[k]);
-            g[axis] += weight * v;
-        }
-    }
-    return g;
-}
+using Sample = reference::NoiseValue<double> (*)(const reference::Voxels<double>&, reference::Vec<double>);
 
-void set_errors(VolumeRow& row, const Points& points, const float* const (&gradient)[3]) {
+/// Relative errors of gradients at a sample of the points.
+ErrorStats errors_of(Sample exact, const Points& points, const std::array<const float*, 3>& gradient) {
     std::vector<double> errors;
-    for (std::size_t i = 0; i < kPixels; i += 7) {
-        const std::array<double, 3> want = exact(points, i);
-        const double d[] = {gradient[0][i] - want[0], gradient[1][i] - want[1], gradient[2][i] - want[2]};
-        errors.push_back(std::hypot(d[0], d[1], d[2]) / std::hypot(want[0], want[1], want[2]));
+    for (std::size_t i = 0; i < kPixels; i += 97) {
+        const reference::Vec<double> want = exact([](int x, int y, int z) { return double{voxel(x, y, z)}; },
+                                                  {points[0][i], points[1][i], points[2][i]})
+                                                .gradient;
+        const reference::Vec<double> got{gradient[0][i], gradient[1][i], gradient[2][i]};
+        errors.push_back(length(got - want) / length(want));
     }
-    std::ranges::sort(errors);
-    row.median = errors[errors.size() / 2], row.p99 = errors[errors.size() * 99 / 100], row.max = errors.back();
+    return statistics(std::move(errors));
 }
 
 std::string kernel_text() {
@@ -115,12 +101,14 @@ cl::Buffer buffer(const Device& device, std::vector<T>& values) {
 
 /// A kernel on the device's lanes with its volume.
 struct Sampler {
-    std::string name;
+    const char* name;
+    Sample exact;
     cl::Kernel kernel;
     cl::Buffer texels, table;
 
     Sampler(const Device& device, const BuiltProgram& built, const Volume& volume, bool smooth)
-        : name(smooth ? "wrinkle, quadratic B-spline" : "wrinkle, trilinear"),
+        : name(smooth ? "quadratic B-spline" : "standard"),
+          exact(smooth ? reference::quadratic_spline<double> : reference::trilinear<double>),
           kernel(built.program, smooth ? "wr_smooth_samples" : "wr_linear_samples") {
         TextureHeap heap;
         add_volume(heap, volume, smooth ? TexelKind::volume_smooth : TexelKind::volume);
@@ -131,14 +119,23 @@ struct Sampler {
 
 }  // namespace
 
-std::vector<VolumeRow> measure_volumes(const Device& device, int size, int repetitions) {
+void measure_volumes(const Device& device, int size, Run& run) {
     const baseline::NanoVolume nano(size, voxel);
     const Volume volume = blocks_of(size);
     const BuiltProgram built = build_program(device, kernel_text(), {device.info.lanes, false});
     std::vector<Sampler> samplers{{device, built, volume, false}, {device, built, volume, true}};
     const std::vector<std::string> inputs{"x", "y", "z"}, outputs{"value", "gx", "gy", "gz"};
     PlaneBuffers in(device, inputs, kPixels, sizeof(float)), out(device, outputs, kPixels, sizeof(float));
-    std::vector<VolumeRow> rows;
+    const auto launch = [&](Sampler& sampler) {
+        cl_uint i = 0;
+        for (const cl::Buffer* b : {&sampler.texels, &sampler.table}) sampler.kernel.setArg(i++, *b);
+        for (const std::string& name : inputs) sampler.kernel.setArg(i++, in.planes().at(name));
+        for (const std::string& name : outputs) sampler.kernel.setArg(i++, out.planes().at(name));
+        device.queue.enqueueNDRangeKernel(sampler.kernel, cl::NullRange,
+                                          cl::NDRange(kPixels / static_cast<std::size_t>(device.info.lanes)),
+                                          cl::NDRange(64));
+        device.queue.finish();
+    };
     const struct {
         const char* name;
         Points points;
@@ -154,42 +151,34 @@ std::vector<VolumeRow> measure_volumes(const Device& device, int size, int repet
         std::span<const float> points[] = {walk.points[0], walk.points[1], walk.points[2]};
         std::span<float> gradients[] = {host[1], host[2], host[3]};
         std::vector<Contender> contenders{
-            {"NanoVDB C++, cached gradient", [&] { nano.gradients(points, gradients); }},
-            {"NanoVDB C++, value and cached gradient", [&] { nano.values_and_gradients(points, host[0], gradients); }}};
-        const auto run = [&](Sampler& sampler) {
-            cl_uint i = 0;
-            for (const cl::Buffer* b : {&sampler.texels, &sampler.table}) sampler.kernel.setArg(i++, *b);
-            for (const std::string& name : inputs) sampler.kernel.setArg(i++, in.planes().at(name));
-            for (const std::string& name : outputs) sampler.kernel.setArg(i++, out.planes().at(name));
-            device.queue.enqueueNDRangeKernel(sampler.kernel, cl::NullRange,
-                                              cl::NDRange(kPixels / static_cast<std::size_t>(device.info.lanes)),
-                                              cl::NDRange(64));
-            device.queue.finish();
-        };
-        for (Sampler& sampler : samplers) contenders.push_back({sampler.name, [&] { run(sampler); }});
-        std::vector<std::vector<double>> times;
-        race(contenders, repetitions, &times);
+            {"NanoVDB C++, gradient", [&] { nano.gradients(points, gradients); }},
+            {"NanoVDB C++, both", [&] { nano.values_and_gradients(points, host[0], gradients); }}};
+        for (Sampler& sampler : samplers) contenders.push_back({sampler.name, [&] { launch(sampler); }});
+        race(contenders, run.repetitions);
         for (std::size_t i = 0; i < contenders.size(); ++i) {
-            VolumeRow row{walk.name, contenders[i].name, contenders[i].seconds};
-            row.ns = row.seconds.median / kPixels * 1e9;
-            row.best_ns = *std::ranges::min_element(times[i]) / kPixels * 1e9;
-            std::vector<double> ratios;
-            for (std::size_t r = 0; r < times[i].size(); ++r) ratios.push_back(times[i][r] / times[0][r]);
-            row.ratio = timing(ratios).median;
-            if (i < 2) {
-                contenders[i].work();
-                set_errors(row, walk.points, {host[1].data(), host[2].data(), host[3].data()});
-            } else if (i == 2) {
-                contenders[i].work();
-                const float* planes[] = {out.map<float>("gx", CL_MAP_READ), out.map<float>("gy", CL_MAP_READ),
-                                         out.map<float>("gz", CL_MAP_READ)};
-                set_errors(row, walk.points, planes);
+            const bool kernel = i >= 2;
+            Measurement m{.group = "volume",
+                          .name = walk.name,
+                          .variant = contenders[i].name,
+                          .lanes = kernel ? device.info.lanes : 0,
+                          .pixels = kPixels,
+                          .seconds = contenders[i].seconds,
+                          .bytes = i == 0 ? 24.0 : 28.0,
+                          .unit = "relative"};
+            contenders[i].work();
+            if (kernel) {
+                std::array<const float*, 3> planes{};
+                for (std::size_t k = 0; k < 3; ++k) planes[k] = out.map<float>(outputs[k + 1], CL_MAP_READ);
+                m.error = errors_of(samplers[i - 2].exact, walk.points, planes);
+                m.hash = hash_of(planes[0], kPixels * sizeof(float));
                 out.unmap();
+            } else {
+                m.error = errors_of(reference::trilinear<double>, walk.points,
+                                    {host[1].data(), host[2].data(), host[3].data()});
             }
-            rows.push_back(row);
+            run.measurements.push_back(std::move(m));
         }
     }
-    return rows;
 }
 
 }  // namespace wrinkle::bench

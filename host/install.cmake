@@ -16,7 +16,8 @@ install(
   FILES_MATCHING
   PATTERN "*.cl"
   PATTERN "*.clh"
-  PATTERN "*.h")
+  PATTERN "*.h"
+  PATTERN "*.json")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(TARGET wrinkle_cli)

@@ -61,7 +61,10 @@ struct Planes {
 /// out = normalize(n - g): 24 bytes read and 12 written per pixel, and hardly any arithmetic.
 void resolve(ConstPlanes n, ConstPlanes g, Planes out);
 
-/// The memory ceiling: 12 bytes read and 12 written per pixel.
-void copy(ConstPlanes in, Planes out);
+/// The same with stores that go past the cache, where the machine has AVX; planes aligned to 32 bytes.
+void resolve_streaming(ConstPlanes n, ConstPlanes g, Planes out);
+
+/// out = a + 3 b as in the STREAM benchmark, likewise past the cache: 8 bytes read and 4 written per pixel.
+void triad_streaming(std::span<const float> a, std::span<const float> b, std::span<float> out);
 
 }  // namespace wrinkle::baseline

@@ -1,3 +1,9 @@
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+#include <cmath>
+
 #include "baseline.h"
 #include "surface_gradient.h"
 #include "wrinkle/error.h"
@@ -31,17 +37,45 @@ void resolve(ConstPlanes n, ConstPlanes g, Planes out) {
     }
 }
 
-void copy(ConstPlanes in, Planes out) {
-    require_same(in, out);
-    const auto count = static_cast<std::ptrdiff_t>(in.x.size());
-    const float *ix = in.x.data(), *iy = in.y.data(), *iz = in.z.data();
-    float *ox = out.x.data(), *oy = out.y.data(), *oz = out.z.data();
-#pragma omp parallel for simd
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        ox[i] = ix[i];
-        oy[i] = iy[i];
-        oz[i] = iz[i];
+namespace {
+
+constexpr std::ptrdiff_t kVector = 8;
+using Vector = float __attribute__((vector_size(sizeof(float) * kVector), may_alias));
+
+Vector at(const float* plane, std::ptrdiff_t i) { return *reinterpret_cast<const Vector*>(plane + i); }
+void stream(float* plane, std::ptrdiff_t i, Vector v) {
+#ifdef __AVX__
+    _mm256_stream_ps(plane + i, v);
+#else
+    *reinterpret_cast<Vector*>(plane + i) = v;
+#endif
+}
+/// Whole vectors; what is left over is done in full, since planes are padded to them.
+std::ptrdiff_t vectors(std::size_t count) { return (static_cast<std::ptrdiff_t>(count) + kVector - 1) / kVector; }
+
+}  // namespace
+
+void resolve_streaming(ConstPlanes n, ConstPlanes g, Planes out) {
+    require_same(n, g);
+    require_same(n, out);
+#pragma omp parallel for
+    for (std::ptrdiff_t k = 0; k < vectors(n.x.size()); ++k) {
+        const std::ptrdiff_t i = k * kVector;
+        const Vector x = at(n.x.data(), i) - at(g.x.data(), i), y = at(n.y.data(), i) - at(g.y.data(), i),
+                     z = at(n.z.data(), i) - at(g.z.data(), i), square = x * x + y * y + z * z;
+        Vector inverse{};
+        for (std::ptrdiff_t j = 0; j < kVector; ++j) inverse[j] = 1.0F / std::sqrt(square[j]);
+        stream(out.x.data(), i, x * inverse);
+        stream(out.y.data(), i, y * inverse);
+        stream(out.z.data(), i, z * inverse);
     }
+}
+
+void triad_streaming(std::span<const float> a, std::span<const float> b, std::span<float> out) {
+    if (a.size() != b.size() || a.size() != out.size()) throw Error("baseline: planes of different sizes");
+#pragma omp parallel for
+    for (std::ptrdiff_t k = 0; k < vectors(a.size()); ++k)
+        stream(out.data(), k * kVector, at(a.data(), k * kVector) + 3.0F * at(b.data(), k * kVector));
 }
 
 }  // namespace wrinkle::baseline

@@ -5,18 +5,12 @@
 #include "frame.h"
 #include "surface_gradient.h"
 #include "texture.h"
+#include "vec_double.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::baseline {
 
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 unit(const Vec3& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
 
 struct Row {
     float3 to_x, to_y, to_z, centre;  ///< q.x = to_x . (p - centre)

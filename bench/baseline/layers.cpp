@@ -2,17 +2,11 @@
 
 #include <charconv>
 
+#include "vec_double.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::baseline {
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 unit(const Vec3& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
 
 std::uint32_t cryptomatte_id(const std::string& name, const std::map<std::string, std::uint32_t>& known) {
     if (name.starts_with('#')) {

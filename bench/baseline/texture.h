@@ -27,6 +27,8 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
     float top() const { return static_cast<float>(last_); }
+    /// Texels of the finest level, row by row from its border at the bottom left; width() + 2 a row.
+    const T* finest() const { return texels_.data(); }
 
     T trilinear(float2 st, float lod) const {
         st = wrap_ == Wrap::repeat ? float2{st.x - std::floor(st.x), st.y - std::floor(st.y)}

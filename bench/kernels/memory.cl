@@ -57,3 +57,21 @@ kernel void wr_resolve_only(global const float *restrict n_x, global const float
     wr_stream(n.y, out_y, at);
     wr_stream(n.z, out_z, at);
 }
+
+/// As many planes as screen derivatives read and write.
+kernel void wr_copy_four_to_six(global const float *restrict a, global const float *restrict b,
+                                global const float *restrict c, global const float *restrict d,
+                                global WR_SCALAR *restrict out_a, global WR_SCALAR *restrict out_b,
+                                global WR_SCALAR *restrict out_c, global WR_SCALAR *restrict out_d,
+                                global WR_SCALAR *restrict out_e, global WR_SCALAR *restrict out_f, uint pixels)
+{
+    size_t at = get_global_id(0) * WR_LANES;
+    if (at >= pixels) return;
+    real x = wr_load(a, at), y = wr_load(b, at), z = wr_load(c, at), w = wr_load(d, at);
+    wr_stream(x, out_a, at);
+    wr_stream(y, out_b, at);
+    wr_stream(z, out_c, at);
+    wr_stream(w, out_d, at);
+    wr_stream(x, out_e, at);
+    wr_stream(y, out_f, at);
+}

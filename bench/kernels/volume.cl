@@ -8,7 +8,7 @@
                      global WR_SCALAR *restrict gx, global WR_SCALAR *restrict gy, global WR_SCALAR *restrict gz) \
     {                                                                                                           \
         size_t at = get_global_id(0) * WR_LANES;                                                                \
-        wr_volume_value s =                                                                                     \
+        wr_field s =                                                                                     \
             SAMPLE(wr_volume_at(texels, textures, 0), wr_v3(wr_load(x, at), wr_load(y, at), wr_load(z, at)));  \
         wr_store(s.value, value, at);                                                                           \
         wr_store(s.gradient.x, gx, at);                                                                         \

@@ -12,6 +12,7 @@
 #include "io/frame_path.h"
 #include "run/pass_impl.h"
 #include "run/render.h"
+#include "run/volume_heap.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -56,7 +57,35 @@ void print_bins(const Plan& plan, const BinReport& bins) {
     if (bins.inherited > 0) fmt::print("  {} tiles share a larger tile's list, for want of room\n", bins.inherited);
 }
 
-void print_json(const Plan& plan, double operations, const std::optional<BinReport>& bins) {
+std::vector<VolumeReport> volumes_of(const Plan& plan) {
+    std::vector<VolumeReport> reports;
+    for (const PlannedTexture& texture : plan.textures)
+        if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth)
+            reports.push_back(volume_report(texture));
+    return reports;
+}
+
+void print_volumes(const std::vector<VolumeReport>& volumes) {
+    if (!volumes.empty()) fmt::print("\nvolumes: blocks of 8 x 8 x 8 voxels, in the order of the layers\n");
+    for (const VolumeReport& v : volumes)
+        fmt::print("  \"{}\" of {}: {} x {} x {} blocks, {} stored, {:.1f} MB on the device\n", v.info.grid,
+                   v.info.channels == 3 ? "vectors" : "values", v.blocks[0], v.blocks[1], v.blocks[2], v.stored,
+                   static_cast<double>(v.bytes) / 1e6);
+}
+
+nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const VolumeReport& v : volumes)
+        all.push_back({{"grid", v.info.grid},
+                       {"channels", v.info.channels},
+                       {"blocks", v.blocks},
+                       {"stored", v.stored},
+                       {"bytes", v.bytes}});
+    return all;
+}
+
+void print_json(const Plan& plan, double operations, const std::optional<BinReport>& bins,
+                const std::vector<VolumeReport>& volumes) {
     nlohmann::json lists;
     if (bins)
         lists = {{"rows", plan.projectors},     {"bytes", bins->bytes},     {"tiles", bins->tiles},
@@ -74,6 +103,7 @@ void print_json(const Plan& plan, double operations, const std::optional<BinRepo
                                       {"operations_per_pixel", operations},
                                       {"sections", sections},
                                       {"bins", lists},
+                                      {"volumes", volumes_json(volumes)},
                                       {"source", plan.source}}
                            .dump(2));
 }
@@ -88,8 +118,9 @@ void explain(const ExplainArguments& arguments) {
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
     const std::optional<BinReport> bins = bins_of(scene, frame, plan, number);
+    const std::vector<VolumeReport> volumes = volumes_of(plan);
     if (arguments.json) {
-        print_json(plan, operations, bins);
+        print_json(plan, operations, bins, volumes);
         return;
     }
     fmt::print("{}: {} x {} pixels\n\n", scene.file.string(), frame.size.width, frame.size.height);
@@ -103,6 +134,7 @@ void explain(const ExplainArguments& arguments) {
     fmt::print("\nexpected per pixel, where nothing is skipped: {:.0f} bytes of planes, {:.0f} operations\n",
                plan.bytes, operations);
     if (bins) print_bins(plan, *bins);
+    print_volumes(volumes);
     if (arguments.no_source) return;
     fmt::print("\n{}", arguments.full ? expand_includes(plan.source, "evaluate.cl") : plan.source);
 }

@@ -2,8 +2,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/frame_list.h"
@@ -20,6 +23,9 @@ struct RunArguments {
     std::string directory = "out", frames, device;
     int threads = 0, repeat = 1;
     bool quiet = false, json = false;
+    std::optional<double> max_error;
+    std::optional<int> sample, seed;
+    std::optional<Precision> precision;
 };
 
 /// A bar on a terminal; nothing when the output goes to a file.
@@ -34,6 +40,29 @@ std::function<void(double)> progress_bar(bool wanted) {
     };
 }
 
+void print_budget(const BudgetReport& budget) {
+    for (const std::string& miss : budget.misses) fmt::print("missed by {}\n", miss);
+    fmt::print("max_error {} degrees: {}\n", budget.max_error, budget.precision);
+    fmt::print("  expected {:.2f} ns/pixel, {:.1e} degrees, by the table of {}\n", budget.expected_ns,
+               budget.expected_error, budget.costs);
+    fmt::print("  measured {:.1e} degrees (median), {:.1e} (99%), {:.1e} (largest) on {} pixels, seed {}\n\n",
+               budget.measured.median, budget.measured.p99, budget.measured.max, budget.measured.samples, budget.seed);
+}
+
+nlohmann::json json_of(const BudgetReport& budget) {
+    return {{"max_error", budget.max_error},
+            {"precision", budget.precision},
+            {"costs", budget.costs},
+            {"expected", {{"ns_per_pixel", budget.expected_ns}, {"degrees", budget.expected_error}}},
+            {"measured",
+             {{"median", budget.measured.median},
+              {"p99", budget.measured.p99},
+              {"max", budget.measured.max},
+              {"pixels", budget.measured.samples}}},
+            {"seed", budget.seed},
+            {"misses", budget.misses}};
+}
+
 void print_table(const RenderReport& report) {
     const double megapixels = static_cast<double>(report.pixels) / 1e6;
     fmt::print("{} frame{}, {:.2f} Mpixel, {} active layer{} on {} ({} lanes)\n", report.frames,
@@ -45,10 +74,12 @@ void print_table(const RenderReport& report) {
     fmt::print("  {:<22}{:>10.3f}\n", "upload (textures)", report.upload);
     fmt::print("  {:<22}{:>10.3f}\n", report.cache_hit ? "build (cache hit)" : "build (compiled)", report.build);
     fmt::print("  {:<22}{:>10.3f}   {:.2f} ns/pixel\n", "kernels", report.kernels, report.kernel_ns_per_pixel);
+    if (report.budget) fmt::print("  {:<22}{:>10.3f}\n", "check in double", report.check);
     fmt::print("  {:<22}{:>10.3f}\n", "write", report.write);
     fmt::print("  {:<22}{:>10.3f}   {:.3f} of it outside read, kernels, write\n", "wall (phases overlap)", report.wall,
                report.outside);
     fmt::print("  {:<22}{:>10.0f}\n\n", "peak memory, MiB", static_cast<double>(report.peak_memory) / (1 << 20));
+    if (report.budget) print_budget(*report.budget);
     for (const auto& file : report.files) fmt::print("wrote {}\n", file.string());
 }
 
@@ -66,12 +97,14 @@ void print_json(const RenderReport& report) {
                                         {"upload", report.upload},
                                         {"build", report.build},
                                         {"kernels", report.kernels},
+                                        {"check", report.check},
                                         {"write", report.write},
                                         {"wall", report.wall},
                                         {"outside", report.outside}}},
                                       {"kernel_ns_per_pixel", report.kernel_ns_per_pixel},
                                       {"peak_memory_bytes", report.peak_memory},
                                       {"cameras", report.cameras},
+                                      {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
                                       {"files", files}}
                            .dump(2));
 }
@@ -79,7 +112,15 @@ void print_json(const RenderReport& report) {
 void run(const RunArguments& arguments) {
     RenderOptions options;
     if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-    const Scene scene = load_scene(arguments.scene);
+    Scene scene = load_scene(arguments.scene);
+    if (arguments.max_error) scene.budget.max_error = arguments.max_error;
+    if (arguments.sample) scene.budget.sample = *arguments.sample;
+    if (arguments.seed) scene.budget.seed = *arguments.seed;
+    if ((arguments.sample || arguments.seed) && !scene.budget.max_error)
+        throw Error("--sample and --seed measure an error budget; give --max-error, or max_error in the scene");
+    if (arguments.precision && scene.budget.max_error)
+        throw Error("--precision and max_error exclude each other: an error budget chooses the precision");
+    options.precision = arguments.precision.value_or(Precision::standard);
     options.directory = arguments.directory;
     options.device = arguments.device;
     options.repeat = arguments.repeat;
@@ -118,6 +159,21 @@ void add_run(CLI::App& app) {
     command->add_option("--repeat", arguments->repeat, "run the kernels N times and report the median, to time them")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));
+    command
+        ->add_option("--max-error", arguments->max_error,
+                     "largest error of a normal, degrees: computes no more exactly than that takes, and measures it")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(std::numeric_limits<double>::min(), 180.0));
+    command->add_option("--precision", arguments->precision, "of everything: standard (what is usual), exact or double")
+        ->type_name("NAME")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{
+            {"standard", Precision::standard}, {"exact", Precision::exact}, {"double", Precision::fp64}}));
+    command->add_option("--sample", arguments->sample, "pixels that are measured, with --max-error (4096)")
+        ->type_name("N")
+        ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+    command->add_option("--seed", arguments->seed, "which pixels (1)")
+        ->type_name("N")
+        ->check(CLI::Range(0, std::numeric_limits<int>::max()));
     command->add_flag("--quiet", arguments->quiet, "print errors only");
     command->add_flag("--json", arguments->json, "print the report as JSON");
     command->callback([arguments] { run(*arguments); });

@@ -15,5 +15,6 @@ void add_scatter(CLI::App& app);
 /// bake-volume and bake-frame
 void add_bake(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_tune(CLI::App& app);
 
 }  // namespace wrinkle::cli

@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
         "  wrinkle figures data/figures/*.toml         pictures side by side that show what a layer does\n"
         "  wrinkle devices                             where it can run\n"
         "  wrinkle bake-volume golden -o golden.vdb    a volume to try things on\n"
-        "  wrinkle bench --report out/bench            how fast and how wrong\n",
+        "  wrinkle bench --report out/bench            how fast and how wrong\n"
+        "  wrinkle tune data/scenes/*.toml             what max_error in a scene chooses by, measured here\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
     app.require_subcommand(0, 1);  // none at all is refused below, after arguments that mean nothing
@@ -38,11 +39,13 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_devices(app);
     wrinkle::cli::add_bake(app);
     wrinkle::cli::add_bench(app);
+    wrinkle::cli::add_tune(app);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
             throw CLI::RequiredError(
-                "A command (run, info, explain, scatter, eval, figures, bake-volume, bake-frame, devices or bench)");
+                "A command (run, info, explain, scatter, eval, figures, bake-volume, bake-frame, devices, bench or "
+                "tune)");
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         const auto used = app.get_subcommands();

@@ -33,6 +33,7 @@ DeviceInfo describe(const cl::Device& device) {
     info.type = (type & CL_DEVICE_TYPE_CPU) != 0 ? "cpu" : (type & CL_DEVICE_TYPE_GPU) != 0 ? "gpu" : "accelerator";
     info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.largest_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     info.lanes = lanes_of(device);
     info.fp64 = device.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
     return info;

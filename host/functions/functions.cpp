@@ -52,7 +52,8 @@ void evaluate(const Device& device, const Function& function, const std::map<std
                                 device.info.name));
     const int lanes = options.lanes != 0 ? options.lanes : std::min(device.info.lanes, fp64 ? 8 : 16);
     const ColumnKernel kernel = column_kernel(function, function.variant(fp64 ? Precision::fp64 : options.precision));
-    const auto got = run_columns<T>(device, kernel, in, lanes, column_data(function, options.settings));
+    const ColumnData data = column_data(function, options.settings, device.info);
+    const auto got = run_columns<T>(device, kernel, in, lanes, data);
     for (const auto& [name, values] : out)
         std::ranges::copy(got[static_cast<std::size_t>(std::ranges::find(results, name) - results.begin())],
                           values.begin());
@@ -86,8 +87,8 @@ const FunctionVariant& Function::variant(Precision wanted) const {
 const std::vector<Function>& functions() {
     static const std::vector<Function> all = [] {
         std::vector<Function> table;
-        for (auto part : {surface_functions, source_functions, noise_functions, volume_functions, compose_functions,
-                          prologue_functions, displacement_functions})
+        for (auto part : {surface_functions, source_functions, projector_functions, noise_functions, volume_functions,
+                          compose_functions, prologue_functions, displacement_functions})
             for (Function& function : part()) table.push_back(std::move(function));
         return table;
     }();

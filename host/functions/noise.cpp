@@ -63,7 +63,7 @@ Function row(const Noise& noise, const char* suffix, const char* way, const char
                  result(vector("gradient", "per cell", "its gradient"), {absolute})};
     f.variants = {{standard,
                    fmt::format("wr_noise noise = {{.basis = {}, .gradient = {}{}}};\n"
-                               "wr_noise_value v = wr_noise_at(noise, p);\nvalue = v.value, gradient = v.gradient;",
+                               "wr_field v = wr_noise_at(noise, p);\nvalue = v.value, gradient = v.gradient;",
                                noise.basis, gradient, simplex),
                    {noise.value, error}}};
     f.fp64_error = fp64_error;
@@ -90,7 +90,7 @@ Function fractal(const char* name, const char* kind, const char* summary, const 
     f.variants = {{standard,
                    fmt::format("wr_fractal f = {{.noise = {{.basis = WR_PERLIN}}, .kind = {}, .octaves = (int)octaves, "
                                ".gain = gain{}}};\n"
-                               "wr_noise_value v = wr_fractal_at(f, p, lattice, footprint, (mask)(p.x == p.x));\n"
+                               "wr_field v = wr_fractal_at(f, p, lattice, footprint, (mask)(p.x == p.x));\n"
                                "value = v.value, gradient = v.gradient;",
                                kind, ridged),
                    {error, error}}};
@@ -106,14 +106,13 @@ Function shape(const char* name, const char* summary, const char* source, std::v
                const char* note) {
     std::string numbers;
     for (const Setting& setting : settings) numbers += ", " + setting.name;
-    Function f{
-        .name = std::string("shape_") + name, .file = "sources/noise_shape.clh", .summary = summary, .source = source};
+    Function f{.name = std::string("shape_") + name, .file = "sources/shape.clh", .summary = summary, .source = source};
     f.parameters = {number("f", "1", "the field"), vector("df_dp", "per metre", "its gradient")};
     f.settings = std::move(settings);
     f.results = {result(number("g", "1", "what becomes of it"), {absolute}),
                  result(vector("dg_dp", "per metre", "the gradient of that"), {relative})};
     f.variants = {{standard,
-                   fmt::format("wr_noise_value v = wr_shape_{}((wr_noise_value){{f, df_dp}}{});\n"
+                   fmt::format("wr_field v = wr_shape_{}((wr_field){{f, df_dp}}{});\n"
                                "g = v.value, dg_dp = v.gradient;",
                                name, numbers),
                    {1e-6, 2e-6}}};
@@ -149,6 +148,12 @@ std::vector<Function> noise_functions() {
     all.push_back(shape("remap", "A field brought from [low, high] to [0, 1], unclamped", "Mikkelsen 2020, section 4.6",
                         {number_setting("low", "what becomes 0", -1), number_setting("high", "what becomes 1", 1)},
                         ""));
+    all.push_back(shape("ramp", "A field brought from [low, high] to [0, 1], clamped", "Mikkelsen 2020, section 4.6",
+                        {number_setting("low", "what becomes 0", -1), number_setting("high", "what becomes 1", 1)},
+                        "Gradient 0 outside."));
+    all.push_back(shape("wave", "A sine of a field: one wave from low to high, and on", "Mikkelsen 2020, section 4.6",
+                        {number_setting("low", "where a wave begins", 0), number_setting("high", "where it ends", 1)},
+                        "Over the cosine of the phase; for values of the size of high - low."));
     all.push_back(shape("power", "A power of a field: dents", "Mikkelsen 2020, section 4.6; Upstill 1989",
                         {number_setting("exponent", "1 at least", 2)}, "0 for f <= 0."));
     all.push_back(shape("smoothstep", "A field eased from 0 at low to 1 at high", "Mikkelsen 2020, section 4.6",

@@ -17,7 +17,8 @@ using Kind = Setting::Kind;
 
 constexpr std::size_t kLatticeOctaves = 16;
 constexpr std::size_t kFrameNumbers = sizeof(wr_frame) / sizeof(double),
-                      kDecalNumbers = sizeof(wr_decal) / sizeof(double);
+                      kDecalNumbers = sizeof(wr_decal) / sizeof(double),
+                      kRowNumbers = sizeof(wr_projector) / sizeof(double);
 
 /// Numbers that a value of this kind has; {0, 0} where it is not made of numbers.
 struct Count {
@@ -33,6 +34,8 @@ Count numbers_of(Kind kind) {
             return {2, 2};
         case Kind::projector:
             return {12, 15};
+        case Kind::table_row:
+            return {13, 19};
         default:
             return {0, 0};
     }
@@ -50,6 +53,16 @@ wr_decal decal_of(const std::vector<double>& v) {
     decal.falloff = v.size() > 12 ? v[12] : 0;
     decal.angle_fade = v.size() > 14 ? std::array{v[13], v[14]} : std::array{-2.0, -1.0};
     return decal_constants(decal, 1, 0, {});
+}
+
+wr_projector row_of(const std::vector<double>& v) {
+    const auto three = [&](std::size_t i) { return Vec3{v[i], v[i + 1], v[i + 2]}; };
+    Projector row{.center = three(1), .axis_x = three(4), .axis_y = three(7), .half_size = three(10)};
+    row.shape = v[0] == 2 ? ProjectorShape::cone : v[0] == 1 ? ProjectorShape::sphere : ProjectorShape::box;
+    row.falloff = v.size() > 15 ? three(13) : Vec3{};
+    row.angle_fade = v.size() > 17 ? std::array{v[16], v[17]} : std::array{-2.0, -1.0};
+    row.two_sided = v.size() > 18 && v[18] != 0;
+    return projector_constants(row, {.texture = 0, .height = true}, 1, {});
 }
 
 /// FILE, or FILE#GRID.
@@ -90,6 +103,10 @@ const char* wanted_text(Setting::Kind kind) {
             return "a volume file of vectors (.vdb, .nvdb), or FILE#GRID";
         case Kind::projector:
             return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
+        case Kind::table_row:
+            return "13 numbers (shape 0 box, 1 sphere, 2 cone; center, axis_x, axis_y, half_size), or up to 19 "
+                   "(falloff "
+                   "x, y, z, 2 cosines of the angle fade, two_sided)";
         case Kind::lattice:
             return "2 numbers, the frequency of the first octave and the lacunarity";
     }
@@ -104,6 +121,8 @@ SettingSize size_of(const Setting& setting) {
             return {kFrameNumbers, 0};
         case Kind::projector:
             return {0, kDecalNumbers};
+        case Kind::table_row:
+            return {0, kRowNumbers};
         case Kind::lattice:
             return {4 * kLatticeOctaves, 0};
         default:
@@ -111,7 +130,8 @@ SettingSize size_of(const Setting& setting) {
     }
 }
 
-ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values) {
+ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values,
+                       const DeviceInfo& device) {
     std::vector<std::string> known;
     for (const Setting& setting : function.settings) known.push_back(setting.name);
     for (const auto& [name, value] : values)
@@ -151,6 +171,9 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
             case Kind::projector:
                 append(data.records, decal_of(*numbers));
                 break;
+            case Kind::table_row:
+                append(data.records, row_of(*numbers));
+                break;
             case Kind::height_texture:
             case Kind::slope_texture:
                 data.constants.push_back(static_cast<double>(textures.size()));
@@ -167,6 +190,7 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
     }
     if (!textures.empty()) {
         TextureHeap heap = load_textures(textures);
+        check_fits(heap, device);
         data.texels = std::move(heap.texels);
         data.textures = std::move(heap.table);
     }
@@ -196,6 +220,10 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
             case Kind::projector:
                 value = fmt::format("global const wr_decal *{} = (global const wr_decal *)(records + {})", setting.name,
                                     at.records);
+                break;
+            case Kind::table_row:
+                value = fmt::format("global const wr_projector *{} = (global const wr_projector *)(records + {})",
+                                    setting.name, at.records);
                 break;
             case Kind::height_texture:
             case Kind::slope_texture:

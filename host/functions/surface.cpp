@@ -77,6 +77,23 @@ std::vector<Function> surface_functions() {
                        "usable = any ? (real)(1) : (real)(0);",
                        {1e-6, 0}}},
          .note = "Skewed tangents take their share of the digits, 1 / sin^2 of their angle. Parallel ones give 0."},
+        {.name = "texture_derivatives",
+         .file = "surface/texcoord_derivative.clh",
+         .summary = "Screen derivatives of texture coordinates from their changes to two neighbouring pixels",
+         .source = "the gradient over the tangent plane that explains both changes",
+         .parameters = {dp_dx, dp_dy, vector("step_x", "metres", "step to a neighbour to the side, as if to the right"),
+                        pair("change_x", "1", "change of the texture coordinates along step_x"),
+                        vector("step_y", "metres", "step to a neighbour below or above, as if down"),
+                        pair("change_y", "1", "change of the texture coordinates along step_y")},
+         .results = {result(dst_dx, {absolute}), result(dst_dy, {absolute})},
+         .variants = {{standard,
+                       "wr_texcoord_change to_x = {change_x, step_x}, to_y = {change_y, step_y};\n"
+                       "wr_texcoord_from_changes(to_x, to_y, dp_dx, dp_dy, &dst_dx, &dst_dy);",
+                       {5e-7, 5e-7}}},
+         .note =
+             "As many times that as (|change_x| |step_y| + |change_y| |step_x|) |dp| / area for the area that the "
+             "steps span, and more for skewed ones. The changes themselves where the steps span less than a 64th of "
+             "what dp_dx and dp_dy do."},
         {.name = "tangent_frame",
          .file = "surface/tangent_frame.clh",
          .summary = "Tangent and bitangent of any texture coordinates, without vertex tangents",

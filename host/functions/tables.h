@@ -8,6 +8,7 @@ namespace wrinkle {
 
 std::vector<Function> surface_functions();
 std::vector<Function> source_functions();
+std::vector<Function> projector_functions();
 std::vector<Function> volume_functions();
 std::vector<Function> noise_functions();
 std::vector<Function> compose_functions();
@@ -26,7 +27,9 @@ SettingSize size_of(const Setting& setting);
 /// "3 numbers"
 const char* wanted_text(Setting::Kind kind);
 
-/// The numbers and textures of the settings. Throws Error for one that is missing, unknown, or of another kind.
-ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values);
+/// The numbers and textures of the settings. Throws Error for one that is missing, unknown, of another kind, or too
+/// large for the device.
+ColumnData column_data(const Function& function, const std::map<std::string, SettingValue>& values,
+                       const DeviceInfo& device);
 
 }  // namespace wrinkle

@@ -10,25 +10,6 @@ std::vector<Function> volume_functions() {
     const Parameter p = vector("p", "voxels", "point in the grid's index space, voxel centres at whole numbers");
     const Result value = result(number("value", "the grid's", "interpolated value"), {absolute}),
                  gradient = result(vector("gradient", "the grid's, per voxel", "its exact gradient"), {absolute});
-    const Parameter to_map = number("value", "1", "value of a volume");
-    const std::vector<Setting> range{{"low", Setting::Kind::number, "value that t = 0 stands for", {0}},
-                                     {"high", Setting::Kind::number, "value that t = 1 stands for", {1}}};
-    const auto remap = [&](const std::string& name, const std::string& summary, const std::string& source,
-                           std::vector<double> errors) {
-        return Function{.name = "remap_" + name,
-                        .file = "sources/remap.clh",
-                        .summary = summary,
-                        .source = source,
-                        .parameters = {to_map},
-                        .settings = range,
-                        .results = {result(number("height", "1", "remapped value"), {absolute}),
-                                    result(number("slope", "1", "its derivative"), {absolute})},
-                        .variants = {{standard,
-                                      "vec2 r = wr_remap_" + name +
-                                          "(value, (real)(low), (real)(high));\nheight = r.x, slope = r.y;",
-                                      std::move(errors)}},
-                        .note = "t = (value - low) / (high - low). The slope's error is that over the range."};
-    };
     return {
         {.name = "volume_trilinear",
          .file = "sources/volume.clh",
@@ -38,7 +19,7 @@ std::vector<Function> volume_functions() {
          .settings = {{"volume", Setting::Kind::volume, "the grid"}},
          .results = {value, gradient},
          .variants = {{standard,
-                       "wr_volume_value v = wr_volume_trilinear(volume, p);\nvalue = v.value, gradient = v.gradient;",
+                       "wr_field v = wr_volume_trilinear(volume, p);\nvalue = v.value, gradient = v.gradient;",
                        {5e-7, 5e-7}}},
          .note = "For voxels within +-1; else times the largest magnitude, and the largest step between the voxels. "
                  "Outside the grid its background, gradient 0."},
@@ -50,7 +31,7 @@ std::vector<Function> volume_functions() {
          .settings = {{"volume", Setting::Kind::smooth_volume, "the grid"}},
          .results = {value, gradient},
          .variants = {{standard,
-                       "wr_volume_value v = wr_volume_bspline(volume, p);\nvalue = v.value, gradient = v.gradient;",
+                       "wr_field v = wr_volume_bspline(volume, p);\nvalue = v.value, gradient = v.gradient;",
                        {5e-7, 5e-7}}},
          .note = "For voxels within +-1; else times the largest magnitude, and the largest step between the voxels. It "
                  "smooths: it does not pass through the voxels. Outside the grid its background, gradient 0."},
@@ -63,11 +44,6 @@ std::vector<Function> volume_functions() {
          .results = {result(vector("v", "the grid's", "interpolated vector"), {absolute})},
          .variants = {{standard, "v = wr_volume_vector(volume, p);", {5e-7}}},
          .note = "For vectors within +-1. Outside the grid its background."},
-        remap("ramp", "A height that rises linearly from 0 to 1 over a range of values", "clamp", {3e-7, 3e-7}),
-        remap("smooth", "A height that rises from 0 to 1 over a range of values with soft ends", "3 t^2 - 2 t^3",
-              {3e-7, 3e-7}),
-        remap("wave", "A height that goes up and down once over a range of values, and on", "sin(2 pi t)",
-              {1e-6, 4e-6}),
         {.name = "golden_ratio",
          .file = "sources/golden_ratio.clh",
          .summary = "An implicit surface of cosines and its gradient, which is its exact normal times a length",
@@ -76,7 +52,7 @@ std::vector<Function> volume_functions() {
          .results = {result(number("value", "1", "0 on the surface, negative inside"), {absolute}),
                      result(vector("gradient", "1", "its gradient"), {absolute})},
          .variants = {{standard,
-                       "wr_volume_value v = wr_golden_ratio(p);\nvalue = v.value, gradient = v.gradient;",
+                       "wr_field v = wr_golden_ratio(p);\nvalue = v.value, gradient = v.gradient;",
                        {3e-6, 5e-6}}},
          .note = "Within 10 of the origin."},
         {.name = "golden_march",

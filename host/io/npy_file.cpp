@@ -5,9 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <regex>
 
 #include "io/csv_table.h"
+#include "io/npy_header.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
@@ -16,42 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie in the file");
 
-constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t alignment = 64;
-
-struct Header {
-    std::string type;
-    std::vector<std::size_t> shape;
-    bool fortran_order = false;
-    std::size_t data = 0;  ///< where the numbers begin
-};
-
-/// The text is a Python dict: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }
-Header read_header(std::string_view text, const std::string& name) {
-    const auto fail = [&](const char* what) { return Error(fmt::format("{}: {}", name, what)); };
-    if (!text.starts_with(magic) || text.size() < 12) throw fail("not a .npy file");
-    const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(text[at])); };
-    const std::size_t counted = byte(6) == 1 ? 2 : 4;  // bytes of the header's length, by version
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < counted; ++i) length |= byte(8 + i) << (8 * i);
-    Header header{.type = {}, .shape = {}, .data = 8 + counted + length};
-    if (header.data > text.size() || length > 65535) throw fail("the .npy file is cut short or damaged");
-    const std::string dict(text.substr(8 + counted, length));
-    std::smatch type, order, shape;
-    if (!std::regex_search(dict, type, std::regex("'descr': *'([^']*)'")) ||
-        !std::regex_search(dict, order, std::regex("'fortran_order': *(True|False)")) ||
-        !std::regex_search(dict, shape, std::regex("'shape': *\\(([0-9, ]*)\\)")))
-        throw fail("it holds records or something else that is no plain array of numbers");
-    header.type = type[1];
-    header.fortran_order = order[1] == "True";
-    const std::string sides = shape[1];
-    const std::regex digits("[0-9]+");
-    for (std::sregex_iterator side(sides.begin(), sides.end(), digits), end; side != end; ++side) {
-        if (side->str().size() > 12) throw fail("the .npy file is damaged: no array is that large");
-        header.shape.push_back(std::stoull(side->str()));
-    }
-    return header;
-}
 
 template <class Stored, class T>
 void take(std::string_view bytes, std::vector<T>& values, const std::string& name) {
@@ -70,7 +35,8 @@ void take(std::string_view bytes, std::vector<T>& values, const std::string& nam
 template <class T>
 NpyArray<T> read_npy(const std::filesystem::path& file) {
     const std::string text = read_text(file), name = file.string();
-    const Header header = read_header(text, name);
+    const NpyHeader header = read_npy_header(text, name);
+    if (header.type.empty()) throw Error(fmt::format("{} holds records; needs a plain array of numbers", name));
     const std::size_t size = header.type == "<f4" ? 4 : header.type == "<f8" ? 8 : 0;
     if (size == 0)
         throw Error(
@@ -80,12 +46,7 @@ NpyArray<T> read_npy(const std::filesystem::path& file) {
     if (header.fortran_order && header.shape.size() > 1)
         throw Error(fmt::format("{} is in Fortran order; save it in C order: numpy.ascontiguousarray(array)", name));
     const std::size_t there = (text.size() - header.data) / size;
-    std::size_t count = 1;
-    for (const std::size_t side : header.shape) {
-        if (side != 0 && count > (std::size_t{1} << 48) / side)
-            throw Error(fmt::format("{}: the .npy file is damaged: no array is that large", name));
-        count *= side;
-    }
+    const std::size_t count = header.count(name);
     if (count > there) throw Error(fmt::format("{} is cut short: {} of {} numbers are there", name, there, count));
     NpyArray<T> array{header.shape, std::vector<T>(count)};
     const std::string_view bytes = std::string_view(text).substr(header.data);
@@ -106,9 +67,9 @@ std::string npy_header(std::span<const std::size_t> shape) {
     if (shape.size() > 1) sides.resize(sides.size() - 2);
     std::string dict = fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}), }}", sizeof(T),
                                    shape.size() == 1 ? sides.substr(0, sides.size() - 1) : sides);
-    dict.append(alignment - 1 - (magic.size() + 4 + dict.size()) % alignment, ' ');
+    dict.append(alignment - 1 - (npy_magic.size() + 4 + dict.size()) % alignment, ' ');
     dict += '\n';
-    std::string text(magic);
+    std::string text(npy_magic);
     text += {'\x01', '\x00', static_cast<char>(dict.size() & 255), static_cast<char>(dict.size() >> 8)};
     return text + dict;
 }

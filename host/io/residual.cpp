@@ -30,8 +30,9 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
     std::vector<PositionSample> samples;
     if (!reader.has_role("position")) return samples;
     const auto [width, height] = reader.size();
-    const bool with_depth = reader.has_role("depth");
+    const bool with_depth = reader.has_role("depth"), with_normal = reader.has_role("normal");
     std::vector<std::string> planes{"position.x", "position.y", "position.z"};
+    if (with_normal) planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z"});
     if (with_depth) planes.emplace_back("depth");
     // Two neighbouring rows each: they share a compressed block, which is what reading them costs.
     std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{2} * width));
@@ -49,9 +50,11 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
             const PositionSample sample{pixel % width + 0.5,
                                         row + pixel / width + 0.5,
                                         {values[0][pixel], values[1][pixel], values[2][pixel]},
-                                        with_depth ? values[3][pixel] : std::numeric_limits<double>::quiet_NaN()};
+                                        with_depth ? values.back()[pixel] : std::numeric_limits<double>::quiet_NaN()};
             // A NaN in the depth plane is a hole in the frame, not a missing role.
             if (with_depth && std::isnan(sample.depth)) continue;
+            const auto normal_length = [&] { return std::hypot(values[3][pixel], values[4][pixel], values[5][pixel]); };
+            if (with_normal && !(normal_length() > 0)) continue;  // sky, whatever its position
             if (is_surface(sample)) samples.push_back(sample);
         }
     }

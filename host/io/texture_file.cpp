@@ -56,14 +56,27 @@ Image read_texels(OIIO::ImageInput& input, int channels, const std::filesystem::
     return image;
 }
 
+/// Whether most float normals are stored as (n + 1) / 2: those nearer to unit length so; of two channels those that fit
+/// into a unit vector so. A few texels outside [0,1] are what a resize leaves, and decide nothing.
+bool mostly_packed(const Image& read) {
+    const auto channels = static_cast<std::size_t>(read.channels);
+    std::size_t packed = 0;
+    for (std::size_t i = 0; i < read.texels.size(); i += channels) {
+        const float* m = &read.texels[i];
+        const float x = 2 * m[0] - 1, y = 2 * m[1] - 1;
+        if (channels == 3)
+            packed += std::abs(std::hypot(x, y, 2 * m[2] - 1) - 1) < std::abs(std::hypot(m[0], m[1], m[2]) - 1);
+        else
+            packed += x * x + y * y <= 1;
+    }
+    return 2 * packed >= read.texels.size() / channels;
+}
+
 /// Signed to [0,1], and the z of two-channel maps.
 Image complete_normals(const Image& read, bool is_float) {
     const auto texels = static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
     const auto channels = static_cast<std::size_t>(read.channels);
-    bool is_signed = false;
-    for (std::size_t i = 0; is_float && i < texels && !is_signed; ++i) {
-        is_signed = read.texels[i * channels] < 0 || read.texels[i * channels + 1] < 0;
-    }
+    const bool is_signed = is_float && !mostly_packed(read);
     if (!is_signed && channels == 3) return read;
 
     Image image{read.width, read.height, 3, std::vector<float>(texels * 3)};
@@ -115,6 +128,11 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
         return static_cast<int>(std::ranges::find(spec.channelnames, name) - spec.channelnames.begin());
     };
     const int n = spec.nchannels, s = channel("b1_dhds"), t = channel("b2_dhdt");
+    if (s < n && t < n && unit == SlopeUnit::metre)
+        throw Error(fmt::format(
+            "{}: its slopes, of maketx --bumpslopes, are per texture; those of decals are metres over metres. "
+            "Use its heights, which are in its first channel: content = \"height\"",
+            file.string()));
     if (s < n && t < n) {  // its t runs down the rows
         const float scale = spec.get_float_attribute("uvslopes_scale");
         return scale == 0 ? SlopeLayout{s, t, width, -height, false, true}

@@ -39,7 +39,8 @@ Image load_texture(const std::filesystem::path& file, ImageUse use);
 
 /// Loads slopes: 2 channels, dh/ds and dh/dt per unit of texture coordinate, t up. `maketx --bumpslopes` files are
 /// known by their channels b1_dhds and b2_dhdt, and say themselves what their slopes are per; of others the first two
-/// channels are read as `encoding` and `unit` say. Throws as load_texture does.
+/// channels are read as `encoding` and `unit` say. Throws as load_texture does, and for a file of `maketx --bumpslopes`
+/// where slopes are wanted in metres over metres.
 Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUnit unit);
 
 /// The image of a texture by its content.

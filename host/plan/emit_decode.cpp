@@ -1,83 +1,10 @@
 #include <fmt/format.h>
 
-#include "plan/section.h"
-#include "wrinkle/error.h"
+#include "plan/geometry_text.h"
 
 namespace wrinkle {
 
 namespace {
-
-/// Where positions come from.
-struct GeometryText {
-    std::vector<std::string> planes;
-    std::string valid;     // mask of the planes, as text; empty when they are always valid
-    std::string position;  // sets p from pixel (x, y) and plane values z or px, py, pz
-};
-
-GeometryText geometry_text(const Emitter& emitter) {
-    const Available& available = emitter.available;
-    const Geometry wanted = emitter.scene.gbuffer.geometry;
-    const bool depth_possible = emitter.has("depth") && available.camera != CameraKind::general &&
-                                !(available.ray_depth && available.camera == CameraKind::parallel);
-    const bool depth = wanted == Geometry::depth || (wanted == Geometry::automatic && depth_possible);
-    if (depth) {
-        emitter.need("geometry from depth", {"depth"});
-        if (!depth_possible)
-            throw Error(
-                "geometry from depth needs a pinhole camera, or planar depth under a parallel projection; set "
-                "geometry = \"position\"");
-        const bool parallel = available.camera == CameraKind::parallel;
-        return {{"depth"},
-                "wr_valid_depth(z)",
-                parallel              ? "vec3 p = wr_parallel_position(frame, x, y, wr_real(z));"
-                : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
-                                      : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));"};
-    }
-    const std::string file = emitter.scene.gbuffer.file.string(), here = file.empty() ? "" : file + ": ";
-    if (wanted == Geometry::automatic && !emitter.has("depth") && !emitter.has("position.x"))
-        emitter.need(here + "geometry, by a depth or a position pass,", {"depth"});
-    emitter.need(here + (wanted == Geometry::automatic && emitter.has("depth")
-                             ? "geometry under a camera that its depth does not serve"
-                             : "geometry from positions"),
-                 {"position.x", "position.y", "position.z"});
-    return {{"position.x", "position.y", "position.z"},
-            "wr_valid_position(px, py, pz)",
-            "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));"};
-}
-
-/// Text that loads and checks one pixel's geometry; `load` is the loading function with its place.
-std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent) {
-    std::string text;
-    if (geometry.planes.size() == 1) {
-        text += fmt::format("{}floats z = {};\n", indent, fmt::format(fmt::runtime(load), "in_depth"));
-    } else {
-        for (const char axis : {'x', 'y', 'z'})
-            text += fmt::format("{}floats p{} = {};\n", indent, axis,
-                                fmt::format(fmt::runtime(load), fmt::format("in_position_{}", axis)));
-    }
-    return text;
-}
-
-std::string load_normal(const std::string& load, const std::string& indent) {
-    std::string text;
-    for (const char axis : {'x', 'y', 'z'})
-        text += fmt::format("{}floats n{} = {};\n", indent, axis,
-                            fmt::format(fmt::runtime(load), fmt::format("in_normal_{}", axis)));
-    return text;
-}
-
-/// Replaces what invalid pixels hold by something harmless, so that nothing later needs to ask.
-std::string sanitize(const GeometryText& geometry, const std::string& indent) {
-    std::string text = geometry.planes.size() == 1 ? indent + "z = wr_valid_or(z, valid, 1);\n" : "";
-    if (geometry.planes.size() == 3)
-        for (const char axis : {'x', 'y', 'z'})
-            text += fmt::format("{0}p{1} = wr_valid_or(p{1}, valid, {2});\n", indent, axis, axis == 'z' ? 1 : 0);
-    return text;
-}
-
-const char* view_text(const Emitter& emitter) {
-    return emitter.available.camera == CameraKind::parallel ? "wr_v3(frame->forward)" : "p";
-}
 
 /// Arguments of the generated helpers: every plane they load.
 std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
@@ -240,20 +167,6 @@ std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
 
 }  // namespace
 
-std::string derivative_text(const Emitter& emitter) {
-    if (emitter.available.camera == CameraKind::pinhole)
-        return "        vec3 d = wr_ray(frame, at.x, at.y);\n"
-               "        wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
-    return "        wr_screen_derivatives_general(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n";
-}
-
-std::string face_viewer_text(const Emitter& emitter) {
-    return fmt::format(
-        "        mask away;\n"
-        "        n = wr_face_viewer(n, {}, &away);\n",
-        view_text(emitter));
-}
-
 std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section) {
     const GeometryText geometry = geometry_text(emitter);
     section.inputs.insert(geometry.planes.begin(), geometry.planes.end());
@@ -287,37 +200,6 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
                height, differences);
 }
 
-PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
-    const GeometryText geometry = geometry_text(emitter);
-    std::string planes;
-    for (const std::string& plane : geometry.planes)
-        planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
-    source += fmt::format(
-        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *axes, global float *bounds,
-    uint tiles, uint supers,
-{}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
-{{
-    uint tile = get_global_id(0);
-    if (tile >= tiles) return;
-    uint2 corner = wr_tile_corner(tile, supers);
-    wr_growing box = wr_no_box();
-    for (uint row = corner.y; row < min(corner.y + WR_TILE_HEIGHT, rows); ++row)
-        for (uint column = corner.x; column < min(corner.x + WR_TILE_WIDTH, width); column += WR_LANES) {{
-            long here = (long)in_first + (long)row * width + column, pixels = in_pixels;
-            real x = wr_lane_number() + (real)(column + WR_R(0.5)), y = (real)(first_row + row + WR_R(0.5));
-{}            mask valid = {} & (x < width);
-{}            {}
-            box = wr_grow(box, valid, p, axes);
-        }}
-    wr_store_bounds(box, bounds, tiles, tile);
-}}
-
-)",
-        planes, load_geometry(geometry, "wr_load_near({}, here, pixels)", "            "), geometry.valid,
-        sanitize(geometry, "            "), geometry.position);
-    return {"wr_bin_tiles", geometry.planes, {}, {}};
-}
-
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     const GeometryText geometry = geometry_text(emitter);
     Section section;
@@ -335,6 +217,13 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
     text += "        marked = valid ? (real)(0) : (real)(1);\n";
     text += sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " +
             geometry.position.substr(std::string("vec3 ").size()) + "\n";
+    if (wanted.contains("p_low")) {
+        text +=
+            fmt::format("        wr_pair3 position = {};\n        p = wr_high(position), p_low = wr_low(position);\n",
+                        geometry.pairs);
+        section.writes.insert("p_low");
+        section.operations += 60;
+    }
     section.writes.insert({"valid", "marked", "p"});
     if (normal) {
         text +=

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "plan/section.h"
+#include "plan/geometry_text.h"
 
 namespace wrinkle {
 
@@ -52,9 +52,7 @@ Section emit_lighting(Emitter& emitter) {
         return true;
     };
     std::string& text = section.body;
-    text = emitter.available.camera == CameraKind::parallel
-               ? "        vec3 v = wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)));\n"
-               : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n";
+    text = fmt::format("        vec3 v = {};\n", to_viewer_text(emitter));
     text += planes({"albedo.r", "albedo.g", "albedo.b"})
                 ? "        vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
                   "                            wr_mask_channel(wr_load(in_albedo_g, at.in)),\n"
@@ -76,9 +74,16 @@ Section emit_lighting(Emitter& emitter) {
     const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
     for (const auto& part : parts)
         text += fmt::format(
-            "        real {1} = wr_load(in_beauty_{1}, at.in);\n"
+            "        floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
+            "        mask seen_{1} = wr_finite(raw_{1});\n"
+            "        real {1} = wr_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
             "        lit.{0} = valid ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
             part.axis, part.color);
+    if (emitter.scene.output.marked) {
+        section.reads.insert("marked");
+        section.writes.insert("marked");
+        text += "        marked += (seen_r & seen_g & seen_b) ? (real)(0) : (real)(16);\n";
+    }
     return section;
 }
 

@@ -87,6 +87,10 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
     if (mask.invert) text += "        m = 1 - m;\n";
     if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion: unknown is not "outside"
         text += "        m = uv_valid ? m : (real)(0);\n";
+    if (mask.channel && mask.invert) {
+        const std::string value = fmt::format("wr_load({}, at.in)", identifier("channel:" + *mask.channel));
+        text += fmt::format("        m = {0} == {0} ? m : (real)(0);\n", value);
+    }
     section.reads.insert("valid");
     text += "        mask active = valid & (m != 0);\n";
     return text;

@@ -47,15 +47,15 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
         R"(        for (uint i = {}; i < {}; ++i) {{
             global const wr_decal *decal = decals + i;
             wr_decal_point in = wr_decal_locate(decal, p);
-            if (!wr_any(active & in.inside)) continue;
-            real weight = m * wr_decal_falloff(decal, in){};
+{}            real weight = m * wr_decal_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
             vec2 slope = {}(t, in.st, {});
             {}
         }}
 )",
-        first, first + layers.size(), facing ? "" : " * wr_decal_angle_fade(decal, n)",
-        sample_function(std::get<DecalLayer>(layer.bump).texture),
+        first, first + layers.size(),
+        at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
+        facing ? "" : " * wr_decal_angle_fade(decal, n)", sample_function(std::get<DecalLayer>(layer.bump).texture),
         layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "(real)(0)",
         projector ? "vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
                     "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_decal_bumped_axis(decal, slope), "

@@ -26,7 +26,7 @@ std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& lay
         TextureUse use = layer.textures[row.texture];
         use.wrap = row.wrap;
         use.upscale = Upscale::smooth;
-        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres: as they are
+        use.unit = SlopeUnit::metre;
         const auto [found, is_new] =
             known.try_emplace({row.texture, row.region, row.wrap}, static_cast<std::uint32_t>(plan.textures.size()));
         if (is_new) plan.textures.push_back({use, TexelKind::slope, {}, row.region});
@@ -35,19 +35,11 @@ std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& lay
     return images;
 }
 
-/// Bins hold the decals of where the frame's surface is, not of where a parallax moves it.
-void refuse_moved_points(const LayerText& at) {
-    for (const Layer* before = at.emitter.scene.layers.data(); before != &at.layer; ++before)
-        if (std::holds_alternative<ParallaxLayer>(before->bump))
-            throw Error(fmt::format(
-                "{}: a table of decals cannot follow a parallax (\"{}\"), which moves the points that it is binned by; "
-                "put it before that, or use kind = \"decal\"",
-                at.who, before->name));
-}
-
 /// Text that multiplies `weight` by what the row's own mask says.
 std::string row_masks(LayerText& at, PlannedDecals& table) {
     const std::vector<Projector>& rows = *table.rows;
+    if (std::ranges::any_of(rows, [](const Projector& row) { return row.object && !row.cryptomatte.empty(); }))
+        throw Error(at.who + ": a row has both an object and a Cryptomatte object; give one");
     std::string text;
     if (std::ranges::any_of(rows, [](const Projector& row) { return row.object.has_value(); })) {
         at.emitter.need(at.who, {"object"});
@@ -80,7 +72,6 @@ std::string row_masks(LayerText& at, PlannedDecals& table) {
 
 std::string emit(LayerText& at, const DecalsLayer& l) {
     if (!l.rows || l.rows->empty()) return {};
-    refuse_moved_points(at);
     Plan& plan = at.emitter.plan;
     const std::size_t first = plan.projectors, last = first + l.rows->size();
     PlannedDecals& table = plan.tables.emplace_back();

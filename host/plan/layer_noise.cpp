@@ -8,6 +8,8 @@ namespace wrinkle {
 
 namespace {
 
+constexpr double kPairs = 110;  // expected operations more, of an octave
+
 /// Expected operations of an octave.
 double octave_cost(const NoiseLayer& l) {
     const double once = l.type == NoiseType::simplex ? 320 : l.type == NoiseType::worley ? 900 : 260;
@@ -45,10 +47,11 @@ std::string noise_text(const NoiseLayer& l) {
 }
 
 /// The fractal as kernel text, likewise.
-std::string fractal_text(const NoiseLayer& l) {
+std::string fractal_text(const NoiseLayer& l, bool pairs) {
     const char* const kinds[] = {"WR_SUM", "WR_TURBULENCE", "WR_RIDGED"};
     std::string text = fmt::format(".noise = {}, .kind = {}, .octaves = {}, .gain = {}", noise_text(l),
                                    kinds[static_cast<int>(l.fractal)], l.octaves, literal(l.gain));
+    if (pairs) text += ", .pairs = 1";
     if (l.type == NoiseType::simplex) text += fmt::format(", .lacunarity = {}", literal(l.lacunarity));
     if (l.fractal == FractalKind::ridged)
         text += fmt::format(", .offset = {}, .feedback = {}", literal(l.offset), literal(l.feedback));
@@ -77,26 +80,39 @@ Periods lattice_period(const NoiseLayer& l, int i) {
     return Periods(period);
 }
 
-}  // namespace
-
-std::string noise_over(LayerText& at, const NoiseLayer& l, const NoiseSpace& space) {
+/// Adds the origins of all octaves, or what floats leave of them; gives the number of the first.
+std::size_t add_lattice(Emitter& emitter, const NoiseLayer& l, const NoiseSpace& space, bool low) {
     double frequency = l.frequency;
-    std::size_t first = 0;
+    const std::size_t first = emitter.plan.origins.size();
     for (int i = 0; i < l.octaves; ++i, frequency *= l.lacunarity) {
-        Origin origin{.period = lattice_period(l, i), .fourth = frequency};
+        Origin origin{.period = lattice_period(l, i), .fourth = frequency, .low = low};
         for (std::size_t k = 0; k < 3; ++k) {
             for (std::size_t j = 0; j < 3; ++j) origin.axes[k][j] = frequency * space.axes[k][j];
             origin.offset[k] = frequency * space.offset[k];
         }
-        const std::size_t index = at.emitter.origin(origin);
-        if (i == 0) first = index;
+        emitter.origin(origin);
     }
+    return first;
+}
+
+}  // namespace
+
+std::string noise_over(LayerText& at, const NoiseLayer& l, const NoiseSpace& space) {
+    const std::size_t first = add_lattice(at.emitter, l, space, false);
     at.section.reads.insert("p");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += octave_cost(l) * l.octaves;
-    return fmt::format("        wr_noise_value f = wr_fractal_at({}, {},\n            origins + {}, {}, {});\n",
-                       fractal_text(l), space.point, 4 * first, at.layer.footprint ? space.footprint : "(real)(0)",
-                       space.active) +
+    const bool pairs =
+        std::holds_alternative<NoiseLayer>(at.layer.bump) && at.emitter.precision(at.layer) == Precision::exact;
+    std::string points = fmt::format("{},\n            origins + {}", space.point, 4 * first);
+    if (pairs) {
+        at.section.reads.insert("p_low");
+        at.section.operations += kPairs * l.octaves;
+        points = fmt::format("p, p_low,\n            origins + {}, origins + {}", 4 * first,
+                             4 * add_lattice(at.emitter, l, space, true));
+    }
+    return fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {});\n", fractal_text(l, pairs), points,
+                       at.layer.footprint ? space.footprint : "(real)(0)", space.active) +
            shape_text(l.shape);
 }
 

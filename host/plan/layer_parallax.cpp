@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plan/geometry_text.h"
 #include "plan/layer_text.h"
 #include "wrinkle/error.h"
 
@@ -30,6 +31,15 @@ bool moves_uv(const LayerText& at) {
 
 /// How far towards the viewer a point may go for a height of 1, as a share of its distance: half way at most.
 double farthest(double level) { return 0.5 / std::max(1 - level, 0.5 / kDeepest); }
+
+/// Kernel text of how far along the ray a height of 1 lies in front of a height of 0.
+std::string reach_text(const Emitter& emitter, const ParallaxLayer& l, const std::string& cosine,
+                       const std::string& depth, const std::string& distance) {
+    return fmt::format("wr_parallax_reach({}, {}, {})", l.mode == ParallaxMode::march ? cosine : "(real)(1)", depth,
+                       emitter.available.camera == CameraKind::parallel
+                           ? fmt::format("(real)({})", literal(20 * kDeepest))
+                           : fmt::format("{} * {}", distance, literal(farthest(l.level))));
+}
 
 /// Turns n and puts the derivatives onto the plane of the new one.
 std::string turn(LayerText& at, bool uv) {
@@ -66,13 +76,10 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
     const std::string name =
         fmt::format("wr_{}{}", march ? "parallax_march" : "height", l.texture.wrap == Wrap::clamp ? "_clamp" : "");
     std::string text = at.located(l.texture, TexelKind::height, l.uv);
-    text += parallel ? "        vec3 v = wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)));\n"
-                     : "        vec3 v = wr_normalize(wr_scale(p, (real)(-1)));\n"
-                       "        real distance = sqrt(wr_dot(p, p));\n";
-    text += fmt::format("        real reach = wr_parallax_reach({}, m * {}, {});\n",
-                        march ? "wr_dot(n, v)" : "(real)(1)", literal(at.layer.scale),
-                        parallel ? fmt::format("(real)({})", literal(20 * kDeepest))
-                                 : fmt::format("distance * {}", literal(farthest(l.level))));
+    text += fmt::format("        vec3 v = {};\n", to_viewer_text(at.emitter));
+    if (!parallel) text += "        real distance = sqrt(wr_dot(p, p));\n";
+    text += fmt::format("        real reach = {};\n",
+                        reach_text(at.emitter, l, "wr_dot(n, v)", "m * " + literal(at.layer.scale), "distance"));
     const char* project = "wr_project_to_texture(n, dp_dx, dp_dy, {}, {}, v)";
     if (at.layer.footprint || l.curved)
         text += fmt::format(
@@ -88,7 +95,7 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
             "        real h = {2}(t, c.st, range, {3}, lod, step, {1}, {4}, active);\n",
             fmt::format(fmt::runtime(project), "c.dx", "c.dy"), l.steps, name, literal(l.level), l.refine);
     else
-        text += fmt::format("        real h = {}(t, c.st, lod);\n", name);
+        text += fmt::format("        real h = wr_clamp({}(t, c.st, lod));\n", name);
     text += fmt::format("        real nearer = active ? reach * (h - {}) : (real)(0);\n", literal(l.level));
     if (uv)
         text += fmt::format("        uv.st = wr_add(uv.st, wr_scale({}, nearer));\n",
@@ -102,6 +109,31 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
         text += std::string("        dp_dx = wr_scale(dp_dx, k), dp_dy = wr_scale(dp_dy, k);\n") +
                 (uv ? "        uv.dx = wr_scale(uv.dx, k), uv.dy = wr_scale(uv.dy, k);\n" : "");
     return text + "        }\n";
+}
+
+MovedPoints moved_points(const Emitter& emitter, const std::string& indent) {
+    const std::vector<Layer>& layers = emitter.scene.layers;
+    const auto is_table = [](const Layer& layer) { return std::holds_alternative<DecalsLayer>(layer.bump); };
+    const auto last = std::find_if(layers.rbegin(), layers.rend(), is_table).base();
+    MovedPoints moved;
+    bool own_normal = true;  // n is still the base normal
+    for (auto layer = layers.begin(); layer != last; ++layer) {
+        if (std::holds_alternative<ResolveLayer>(layer->bump)) own_normal = false;
+        const auto* l = std::get_if<ParallaxLayer>(&layer->bump);
+        if (!l) continue;
+        moved.by_normal |= own_normal && l->mode == ParallaxMode::march;
+        const std::string depth = fmt::format("(real)(WR_BIN_BOX_SLACK * {})", literal(layer->scale));
+        const auto add = [&](const char* way, double share, const char* distance) {
+            if (share > 0)
+                moved.text += fmt::format(
+                    "{}{} += {} * {};\n", indent, way, literal(share),
+                    reach_text(emitter, *l, own_normal ? "fabs(wr_dot(n, v))" : "(real)(0)", depth, distance));
+        };
+        add("nearer", 1 - l->level, "(distance - nearer)");
+        add("farther", l->level, "(distance + farther)");
+        own_normal &= !l->curved;
+    }
+    return moved;
 }
 
 }  // namespace wrinkle

@@ -57,6 +57,13 @@ std::string emit(LayerText& at, const ObjectNormalLayer& l);
 std::string emit(LayerText& at, const DerivativeMapLayer& l);
 std::string emit(LayerText& at, const ParallaxLayer& l);
 
+/// How far parallaxes may move a point before the last table of decals sees it.
+struct MovedPoints {
+    std::string text;        ///< adds to `nearer` and `farther`, metres along the ray, going by n, v and distance
+    bool by_normal = false;  ///< the text reads n, the base normal
+};
+MovedPoints moved_points(const Emitter& emitter, const std::string& indent);
+
 /// Decals that may share a loop: same mask, same way to sample.
 bool same_loop(const Layer& a, const Layer& b);
 /// Consecutive decals as one loop.

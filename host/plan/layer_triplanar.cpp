@@ -137,7 +137,8 @@ private:
                                     literal(rows[2]));
             }
             return text + fmt::format(
-                              "            g = wr_fma(wr_surface_gradient_from_perturbed_normal(n, v), m * {} * "
+                              "            g = wr_fma(wr_limit_slope(wr_surface_gradient_from_perturbed_normal(n, v)), "
+                              "m * {} * "
                               "({} * {}), g);\n",
                               plane.weight, at_.strength(), literal(scale));
         }

@@ -57,12 +57,11 @@ std::string emit(LayerText& at, const VolumeLayer& l) {
         at.emitter.volume(l, smooth ? TexelKind::volume_smooth : TexelKind::volume), 4 * origin,
         transformed(m, "p", false, "start"));
     if (vectors) return text + at.volume("wr_volume_vector(v, q)");
-    text +=
-        fmt::format("        wr_volume_value s = {}(v, q);\n", smooth ? "wr_volume_bspline" : "wr_volume_trilinear");
+    text += fmt::format("        wr_field s = {}(v, q);\n", smooth ? "wr_volume_bspline" : "wr_volume_trilinear");
     if (l.remap != Remap::none)
-        text += fmt::format("        m *= wr_remap_{}(s.value, (real)({}), (real)({})).y;\n",
+        text += fmt::format("        s = wr_shape_{}(s, {}, {});\n",
                             l.remap == Remap::ramp     ? "ramp"
-                            : l.remap == Remap::smooth ? "smooth"
+                            : l.remap == Remap::smooth ? "smoothstep"
                                                        : "wave",
                             literal(l.range[0]), literal(l.range[1]));
     return text + at.volume(transformed(m, "s.gradient", true));

@@ -46,6 +46,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     for (const Stage& stage : stages) {  // decoded once, for all stages; texture coordinates need derivatives
         if (stage.reads.contains("uv")) first.insert({"uv", "dp_dx"});
         if (stage.reads.contains("vertex_tb")) first.insert("vertex_tb");
+        if (stage.reads.contains("p_low")) first.insert("p_low");
         if (stage.reads.contains("dn_dx")) first.insert({"dn_dx", "dp_dx"});
     }
     const Output& output = emitter.scene.output;
@@ -164,6 +165,8 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
 }  // namespace
 
 Plan make_plan(const Scene& scene, const Available& available, const PlanOptions& options) {
+    if (const std::size_t count = options.precision.layers.size(); count != 0 && count != scene.layers.size())
+        throw Error(fmt::format("{} precisions for {} layers", count, scene.layers.size()));
     Emitter emitter{scene, available, options, {}, {}};
     const std::vector<Section> sections = emit_sections(emitter);
     Plan plan = std::move(emitter.plan);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "wrinkle/camera.h"
+#include "wrinkle/precision.h"
 #include "wrinkle/scene.h"
 
 namespace wrinkle {
@@ -45,6 +46,10 @@ struct PlanOptions {
     bool write_normal = true;      ///< resolve and write it
     bool volume_gradient = false;  ///< write the sum of the volume gradients before any projection (accumulate_decals)
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
+    Precisions precision{};
+    // What plans save, to be measured by leaving it out:
+    bool skip = true;       ///< groups of pixels that do not want a layer, or lie outside a decal, skip it
+    bool switches = false;  ///< branch at run time around every layer; those of scale 0 are switched off
 };
 
 /// Periods of three numbers: the same for all, or one each; 0 for none.
@@ -60,6 +65,7 @@ struct Origin {
     Vec3 offset{};
     Periods period = 0;
     double fourth = 0;  ///< a number that travels with them: the frequency of an octave
+    bool low = false;   ///< what a float leaves of these four numbers instead of them
 };
 
 /// A texture as kernels sample it.

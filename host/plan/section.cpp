@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/names.h"
+#include "plan/precision.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -17,6 +18,7 @@ const std::vector<Value>& values() {
         {"valid", "mask", {""}},
         {"marked", "real", {""}},
         {"p", "vec3", {".x", ".y", ".z"}},
+        {"p_low", "vec3", {".x", ".y", ".z"}},
         {"n", "vec3", {".x", ".y", ".z"}},
         {"base", "vec3", {".x", ".y", ".z"}},
         {"dp_dx", "vec3", {".x", ".y", ".z"}},
@@ -33,6 +35,15 @@ const std::vector<Value>& values() {
     };
     return all;
 }
+
+Precision Emitter::precision(const Layer& layer) const {
+    const auto index = static_cast<std::size_t>(&layer - scene.layers.data());
+    const std::vector<Precision>& wanted = options.precision.layers;
+    return served(layer_precisions(scene, index, available.camera),
+                  wanted.empty() ? Precision::standard : wanted.at(index));
+}
+
+Precision Emitter::geometry_precision() const { return served(geometry_precisions(), options.precision.geometry); }
 
 std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {

@@ -36,6 +36,9 @@ struct Emitter {
     Plan plan;
     std::string helpers;  ///< functions that precede the kernels
 
+    /// The variant that a layer of the scene is to have.
+    Precision precision(const Layer& layer) const;
+    Precision geometry_precision() const;
     /// Number of a texture in the table; the same use is stored once.
     std::size_t texture(const TextureUse& use, TexelKind kind);
     /// Number of a volume in the same table.

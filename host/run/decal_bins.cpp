@@ -84,9 +84,7 @@ void DecalBins::make_room(std::uint32_t supers) {
         lists_[level] = cl::Buffer(device_.context, CL_MEM_READ_WRITE, count * kListWords * sizeof(cl_uint));
         room_bytes_ += count * (6 * sizeof(float) + kListWords * sizeof(cl_uint));
     }
-    filled_.resize(1);
-    device_.queue.enqueueWriteBuffer(entries_, CL_FALSE, 0, decals_ * sizeof(cl_uint), numbers_.data(), nullptr,
-                                     filled_.data());
+    device_.queue.enqueueWriteBuffer(entries_, CL_TRUE, 0, decals_ * sizeof(cl_uint), numbers_.data());
 }
 
 cl::Event DecalBins::enqueue(const cl::Buffer& frame, const std::vector<cl::Buffer>& in, const Rows& rows,
@@ -98,7 +96,6 @@ cl::Event DecalBins::enqueue(const cl::Buffer& frame, const std::vector<cl::Buff
     const cl_uint tiles = supers_ * kTilesOfSuper, blocks = tiles / 16;
     std::vector<cl::Event> after = wait;
     after.insert(after.end(), last_use_.begin(), last_use_.end());
-    after.insert(after.end(), filled_.begin(), filled_.end());
 
     cl::Event cleared;
     device_.queue.enqueueFillBuffer(used_, cl_uint{decals_}, 0, sizeof(cl_uint), after.empty() ? nullptr : &after,

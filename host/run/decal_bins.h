@@ -60,7 +60,7 @@ private:
     cl::Buffer projectors_, boxes_, bounds_, groups_, axes_;
     std::array<cl::Buffer, 3> tile_bounds_, lists_;  ///< of tiles, blocks, super blocks
     cl::Buffer entries_, hits_, used_;
-    std::vector<cl::Event> last_use_, filled_;
+    std::vector<cl::Event> last_use_;
     std::uint64_t table_bytes_ = 0, room_bytes_ = 0;
     bool fp64_ = false;
 };

@@ -8,7 +8,7 @@
 #include "io/gbuffer_reader.h"
 #include "io/image_writer.h"
 #include "io/montage.h"
-#include "run/pass_impl.h"
+#include "run/condition.h"
 #include "run/render.h"
 
 namespace wrinkle {
@@ -35,9 +35,25 @@ struct Shown {
     PngEncoding encoding = PngEncoding::srgb;
 };
 
+/// Condition as a grey, per whole frame.
+Planes show_condition(const Device& device, const Scene& scene, const GBufferReader& reader) {
+    constexpr float kWhite = 6;  // powers of ten
+    const Size size = reader.size();
+    Condition condition(device, scene, describe_frame(scene));
+    const Planes in = read_planes(reader, condition.inputs());
+    PlaneBuffers buffers(device, condition.inputs(), std::size_t{size.width} * size.height, sizeof(float));
+    for (const auto& [name, plane] : in) std::ranges::copy(plane, buffers.map<float>(name, CL_MAP_WRITE));
+    buffers.unmap();
+    std::vector<float> grey = condition.evaluate(buffers, {.first = 0, .count = size.height});
+    for (float& v : grey) v = std::log10(std::max(v, 1.0f)) / kWhite;
+    return {{"condition", std::move(grey)}};
+}
+
 Shown show(const Device& device, const Scene& scene, const GBufferReader& reader, PanelPicture picture) {
     if (picture == PanelPicture::before)
         return {read_planes(reader, {"beauty.r", "beauty.g", "beauty.b"}), {"beauty.r", "beauty.g", "beauty.b"}};
+    if (picture == PanelPicture::condition)
+        return {show_condition(device, scene, reader), {"condition", "condition", "condition"}, PngEncoding::linear};
     Pass pass = evaluate(device, scene, describe_frame(scene));
     const Planes in = read_planes(reader, pass.inputs());
     Planes out;

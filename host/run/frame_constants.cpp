@@ -123,9 +123,8 @@ wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t text
     return out;
 }
 
-wr_projector projector_constants(const PlannedDecals& table, std::size_t index, const Vec3& eye) {
-    const Projector& row = (*table.rows)[index];
-    const PlannedDecals::Image& image = table.images[index];
+wr_projector projector_constants(const Projector& row, const PlannedDecals::Image& image, double scale,
+                                 const Vec3& eye) {
     wr_projector out{};
     put(out.center, subtract(row.center, eye));
     // Below this a half size has no reciprocal in float: such a decal covers no pixel, so it contributes nothing.
@@ -136,7 +135,7 @@ wr_projector projector_constants(const PlannedDecals& table, std::size_t index, 
     put(out.to_box_x, scaled(x, 1 / row.half_size[0]));
     put(out.to_box_y, scaled(y, 1 / row.half_size[1]));
     put(out.to_box_z, scaled(cross(x, y), 1 / row.half_size[2]));
-    const double scale = table.scale * row.scale;
+    scale *= row.scale;
     for (std::size_t k = 0; k < 2; ++k) {
         const double repeat = row.wrap == Wrap::repeat ? row.repeat[k] : 1;
         out.repeat[k] = repeat;
@@ -153,6 +152,13 @@ wr_projector projector_constants(const PlannedDecals& table, std::size_t index, 
     out.tile = row.wrap == Wrap::repeat ? 1 : 0;
     out.opacity = row.opacity;
     out.replace = row.mode == ProjectorMode::replace ? 1 : 0;
+    return out;
+}
+
+/// Row `index` of a planned table, with its mask.
+wr_projector masked_projector(const PlannedDecals& table, std::size_t index, const Vec3& eye) {
+    const Projector& row = (*table.rows)[index];
+    wr_projector out = projector_constants(row, table.images[index], table.scale, eye);
     if (row.object) {
         out.mask = 1;
         out.object = *row.object;
@@ -170,17 +176,20 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
     FrameConstants out;
     out.frame = camera_constants(camera, size);
     for (const Origin& origin : plan.origins) {
+        const auto add = [&](double value) {
+            out.origins.push_back(origin.low ? value - static_cast<float>(value) : value);
+        };
         for (std::size_t k = 0; k < 3; ++k) {
             double value = dot(origin.axes[k], eye) + origin.offset[k];
             if (const double period = origin.period[k]; period > 0) value -= period * std::floor(value / period);
-            out.origins.push_back(value);
+            add(value);
         }
-        out.origins.push_back(origin.fourth);
+        add(origin.fourth);
     }
     for (std::size_t i = 0; i < plan.decals.size(); ++i)
         out.decals.push_back(decal_constants(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));
     for (const PlannedDecals& table : plan.tables)
-        for (const std::uint32_t row : table.order) out.projectors.push_back(projector_constants(table, row, eye));
+        for (const std::uint32_t row : table.order) out.projectors.push_back(masked_projector(table, row, eye));
     for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
     put(out.lighting.ambient, lighting.ambient);
     put(out.lighting.albedo, lighting.albedo);

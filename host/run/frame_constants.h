@@ -30,8 +30,9 @@ void split_constants(wr_frame& frame);
 /// A decal as kernels read it; `scale` is signed, `texture` its number in the table.
 wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye);
 
-/// Row `row` of a planned table as kernels read it.
-wr_projector projector_constants(const PlannedDecals& table, std::size_t row, const Vec3& eye);
+/// A row of a table as kernels read it, without its masks; `scale` is signed.
+wr_projector projector_constants(const Projector& row, const PlannedDecals::Image& image, double scale,
+                                 const Vec3& eye);
 
 FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size);
 

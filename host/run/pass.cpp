@@ -104,7 +104,8 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const R
 }
 
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options) {
-    return make_pass("evaluate", device, scene, frame, options, {.split = options.split});
+    return make_pass("evaluate", device, scene, frame, options,
+                     {.split = options.split, .precision = options.precision});
 }
 
 Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
@@ -119,14 +120,15 @@ Pass accumulate_decals(const Device& device, std::span<const Layer> decals, cons
                       .normal = false,
                       .write_normal = false,
                       .volume_gradient = true,
-                      .view_footprint = true});
+                      .view_footprint = true,
+                      .precision = options.precision});
 }
 
 Pass screen_derivatives(const Device& device, const Frame& frame, const PassOptions& options) {
     Scene scene;
     scene.output.dp_dx = scene.output.dp_dy = true;
     return make_pass("screen derivatives", device, scene, frame, options,
-                     {.split = options.split, .write_normal = false});
+                     {.split = options.split, .write_normal = false, .precision = options.precision});
 }
 
 }  // namespace wrinkle

@@ -71,18 +71,12 @@ void add_facts(Available& available, const Layer& layer, const VolumeLayer& volu
     } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
 }
 
-/// What a table of all textures and volumes takes must be one buffer.
-void check_memory(const Device& device, std::size_t texels) {
-    const std::size_t bytes = texels * sizeof(float);
-    const auto most = device.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-    if (bytes > most)
-        throw Error(fmt::format(
-            "the textures and volumes of the scene take {:.1f} MiB; {} allows {:.1f} MiB in one "
-            "buffer: use smaller ones, or another device",
-            static_cast<double>(bytes) / (1 << 20), device.info.name, static_cast<double>(most) / (1 << 20)));
-}
-
 }  // namespace
+
+bool same_shape(const Frame& a, const Frame& b) {
+    return a.size == b.size && a.planes == b.planes && a.ray_depth == b.ray_depth && a.cryptomatte == b.cryptomatte &&
+           camera_kind(a.camera, a.size) == camera_kind(b.camera, b.size);
+}
 
 Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options) {
     if (frame.size.width == 0 || frame.size.height == 0) throw Error("the frame has no pixels");
@@ -105,7 +99,7 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
         throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
     const auto textures_start = Clock::now();
     TextureHeap heap = load_textures(plan.textures);
-    check_memory(device, heap.texels.size());
+    check_fits(heap, device.info);
     texels = table(device, std::move(heap.texels));
     textures = table(device, std::move(heap.table));
     texture_seconds = seconds_since(textures_start);
@@ -139,7 +133,7 @@ void Pass::Impl::set_camera(const Camera& camera) {
 }
 
 cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
-                              const std::vector<cl::Event>& wait) {
+                              const std::vector<cl::Event>& wait, std::span<const Items> some) {
     const std::size_t pixels = std::size_t{rows.count} * size.width;
     const std::size_t items =
         (pixels + static_cast<std::size_t>(options.lanes) - 1) / static_cast<std::size_t>(options.lanes);
@@ -176,10 +170,19 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         kernel.setArg(i++, static_cast<cl_uint>(rows.first));
         kernel.setArg(i++, static_cast<cl_uint>(size.width));
         kernel.setArg(i++, static_cast<cl_uint>(pixels));
-        cl::Event done;
-        device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(kGroup),
-                                          after.empty() ? nullptr : &after, &done);
-        after = {done};
+        const std::vector<cl::Event>* before_it = after.empty() ? nullptr : &after;
+        std::vector<cl::Event> done(std::max<std::size_t>(some.size(), 1));
+        if (some.empty())
+            device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(kGroup),
+                                              before_it, done.data());
+        for (std::size_t run = 0; run < some.size(); ++run)
+            device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(some[run].first), cl::NDRange(some[run].count),
+                                              cl::NDRange(1), before_it, &done[run]);
+        after.resize(1);
+        if (done.size() == 1)
+            after.front() = done.front();
+        else
+            device.queue.enqueueMarkerWithWaitList(&done, &after.front());
     }
     if (plan.tiles) bins.used_until(after.front());
     return after.front();

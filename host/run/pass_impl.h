@@ -30,14 +30,23 @@ struct Pass::Impl {
     Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
          const PlanOptions& plan_options);
 
+    /// Work-items of a band: `lanes` pixels each, from the band's first on.
+    struct Items {
+        std::size_t first = 0, count = 0;
+    };
+
     void set_camera(const Camera& camera);
+    /// Evaluates the rows, or only `some` of their work-items where any are given.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
-                      const std::vector<cl::Event>& wait);
+                      const std::vector<cl::Event>& wait, std::span<const Items> some = {});
 
     /// Writes the program to the disk cache, once; after the first kernels ran.
     void save();
     std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
 };
+
+/// Whether a pass for one frame serves another, once it has its camera.
+bool same_shape(const Frame& a, const Frame& b);
 
 /// The plan that a scene gets for a frame.
 Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options);

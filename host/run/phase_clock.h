@@ -13,7 +13,7 @@ namespace wrinkle {
 class PhaseClock {
 public:
     using Clock = std::chrono::steady_clock;
-    enum Phase { read, textures, build, kernels, write, count };
+    enum Phase { read, textures, build, kernels, check, write, count };
 
     /// Runs `work` and counts its time to `phase`; from any thread.
     template <class Work>

@@ -3,18 +3,12 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <future>
-
 #include "device/guarded.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
 #include "plan/section.h"
-#include "run/frame_outputs.h"
-#include "run/pass_impl.h"
-#include "run/phase_clock.h"
-#include "run/plane_buffers.h"
+#include "run/frame_run.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -22,15 +16,6 @@ namespace wrinkle {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Rows of a band: whole ZIP blocks of EXR files, and enough pixels to keep every core busy. Three bands are in flight.
-constexpr std::uint32_t kBlockRows = 16;
-constexpr std::size_t kBandPixels = std::size_t{1} << 18;
-
-std::uint32_t band_rows(Size size) {
-    const std::size_t blocks = std::max<std::size_t>(kBandPixels / size.width / kBlockRows, 1);
-    return static_cast<std::uint32_t>(std::min<std::size_t>(blocks * kBlockRows, size.height));
-}
 
 /// Hashes of every Cryptomatte name that a scene's masks use, and of those the file lists.
 std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, const GBufferReader& reader) {
@@ -60,110 +45,6 @@ Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamer
     return frame;
 }
 
-/// Planes of a band in memory that both sides reach, and where they lie.
-struct Slot {
-    PlaneBuffers inputs, outputs;
-    Rows rows;
-};
-
-/// One frame in bands, three in flight: while one is evaluated the next is read and the last is written.
-class FrameRun {
-public:
-    FrameRun(Pass::Impl& pass, const GBufferReader& reader, FrameOutputs& outputs, PhaseClock& clock, int repeat)
-        : pass_(pass), reader_(reader), outputs_(outputs), clock_(clock), repeat_(std::max(repeat, 1)) {
-        names_ = pass.plan.inputs;
-        for (const std::string& plane : outputs.passed_planes())
-            if (std::ranges::find(names_, plane) == names_.end()) names_.push_back(plane);
-    }
-
-    /// Returns the seconds kernels took.
-    double run(const std::function<void(double)>& progress) {
-        const Size size = pass_.size;
-        const std::uint32_t rows = band_rows(size), halo = pass_.plan.neighbours ? 1 : 0;
-        std::array<Slot, 3> slots;
-        for (Slot& slot : slots) {
-            slot.inputs =
-                PlaneBuffers(pass_.device, names_, std::size_t{size.width} * (rows + 2 * halo), sizeof(float));
-            slot.outputs =
-                PlaneBuffers(pass_.device, pass_.plan.outputs, std::size_t{size.width} * rows, sizeof(float));
-        }
-        std::future<void> reading, writing;
-        const auto start_reading = [&](std::uint32_t first, Slot& slot) {
-            slot.rows.first = first;
-            slot.rows.count = std::min(rows, size.height - first);
-            slot.rows.before = std::min(halo, first);
-            slot.rows.after = std::min(halo, size.height - first - slot.rows.count);
-            reading = std::async(std::launch::async, [&, this] { read(slot); });
-        };
-        start_reading(0, slots[0]);
-        for (std::uint32_t first = 0, band = 0; first < size.height; first += rows, ++band) {
-            Slot& slot = slots[band % 3];
-            reading.get();
-            slot.inputs.unmap();
-            if (first + rows < size.height) start_reading(first + rows, slots[(band + 1) % 3]);
-            evaluate(slot);
-            if (writing.valid()) writing.get();  // the slot before this one is free again
-            writing = std::async(std::launch::async, [&, this] { write(slot); });
-            if (progress) progress(std::min(1.0, static_cast<double>(first + rows) / size.height));
-        }
-        writing.get();
-        return kernel_seconds_;
-    }
-
-private:
-    void read(Slot& slot) {
-        clock_.measure(PhaseClock::read, [&] {
-            std::vector<float*> planes;
-            for (const std::string& name : names_) planes.push_back(slot.inputs.map<float>(name, CL_MAP_WRITE));
-            reader_.read_rows(slot.rows.first - slot.rows.before, slot.rows.first + slot.rows.count + slot.rows.after,
-                              names_, planes);
-        });
-    }
-
-    void evaluate(Slot& slot) {
-        if (!pass_.warm) {  // drivers finish compiling at the first call: one row, counted as building
-            clock_.measure(PhaseClock::build, [&] {
-                Rows row = slot.rows;
-                row.after += row.count - 1;
-                row.count = 1;
-                pass_.enqueue(slot.inputs.planes(), slot.outputs.planes(), row, {}).wait();
-            });
-            pass_.warm = true;
-        }
-        clock_.measure(PhaseClock::kernels, [&] {
-            std::vector<double> times;
-            for (int i = 0; i < repeat_; ++i) {
-                const auto start = PhaseClock::Clock::now();
-                pass_.enqueue(slot.inputs.planes(), slot.outputs.planes(), slot.rows, {}).wait();
-                times.push_back(std::chrono::duration<double>(PhaseClock::Clock::now() - start).count());
-            }
-            std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2));
-            kernel_seconds_ += times[times.size() / 2];
-        });
-    }
-
-    void write(Slot& slot) {
-        clock_.measure(PhaseClock::write, [&] {
-            const std::size_t before = std::size_t{slot.rows.before} * pass_.size.width;
-            std::map<std::string, const float*> planes;
-            for (const std::string& name : names_) planes[name] = slot.inputs.map<float>(name, CL_MAP_READ) + before;
-            for (const std::string& name : pass_.plan.outputs)
-                planes["out:" + name] = slot.outputs.map<float>(name, CL_MAP_READ);
-            outputs_.write(slot.rows.first, slot.rows.first + slot.rows.count, planes);
-            slot.inputs.unmap();
-            slot.outputs.unmap();
-        });
-    }
-
-    Pass::Impl& pass_;
-    const GBufferReader& reader_;
-    FrameOutputs& outputs_;
-    PhaseClock& clock_;
-    int repeat_;
-    std::vector<std::string> names_;
-    double kernel_seconds_ = 0;
-};
-
 GBufferReader open_frame(const Scene& scene, int frame) {
     return GBufferReader(frame_path(scene.gbuffer.file, frame), scene.gbuffer);
 }
@@ -177,13 +58,61 @@ Frame describe_frame(const Scene& scene, int frame) {
 
 namespace {
 
+/// Makes the passes of a run, and keeps the last one while frames fit it.
+class Passes {
+public:
+    Passes(const Device& device, const Scene& scene, PhaseClock& clock, RenderReport& report)
+        : device_(device), scene_(scene), clock_(clock), report_(report) {}
+
+    Pass& get(const Frame& frame, const PassOptions& options) {
+        if (pass_ && same_shape(frame, built_for_) && options.fp64 == built_with_.fp64 &&
+            options.precision == built_with_.precision) {
+            pass_->set_camera(frame.camera);
+            return *pass_;
+        }
+        pass_.emplace(clock_.measure(PhaseClock::build, [&] { return evaluate(device_, scene_, frame, options); }));
+        report_.upload += pass_->impl().texture_seconds;
+        report_.cache_hit = pass_->impl().built.source == BuildSource::disk;
+        built_for_ = frame, built_with_ = options;
+        return *pass_;
+    }
+
+private:
+    const Device& device_;
+    const Scene& scene_;
+    PhaseClock& clock_;
+    RenderReport& report_;
+    std::optional<Pass> pass_;
+    Frame built_for_;
+    PassOptions built_with_;
+};
+
+/// A budget with what measures it on the frames of one shape.
+struct KeptBudget {
+    Budget budget;
+    ErrorSample sample;
+};
+
+PrecisionChoice everything_in(Precision precision, std::size_t layers) {
+    if (precision == Precision::fp64) return {.fp64 = true};
+    return {.precision = {precision, std::vector(layers, precision)}};
+}
+
+PassOptions options_of(const PrecisionChoice& choice) {
+    PassOptions options{.fp64 = choice.fp64};
+    if (!choice.fp64) options.precision = choice.precision;
+    return options;
+}
+
 RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     RenderReport report;
     PhaseClock clock;
     const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
     const Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
-    std::optional<Pass> pass;
-    Frame built_for;
+    Passes passes(device, scene, clock, report);
+    std::optional<KeptBudget> kept;
+    std::optional<Condition> condition;
+    Frame condition_for;
     for (std::size_t f = 0; f < frames.size(); ++f) {
         GBufferReader reader = clock.measure(PhaseClock::read, [&] { return open_frame(scene, frames[f]); });
         const FrameCamera camera = clock.measure(PhaseClock::read, [&] {
@@ -194,38 +123,64 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         report.cameras.push_back(camera.residual ? fmt::format("{}; positions reproject within {:.3g} pixel (median)",
                                                                camera.origin, camera.residual->median)
                                                  : fmt::format("{}; no positions to check it against", camera.origin));
-        Frame frame = frame_of(scene, reader, camera);
-        const bool same = pass && frame.size == built_for.size && frame.planes == built_for.planes &&
-                          frame.ray_depth == built_for.ray_depth && frame.cryptomatte == built_for.cryptomatte &&
-                          camera_kind(frame.camera, frame.size) == camera_kind(built_for.camera, built_for.size);
-        if (same) {
-            pass->set_camera(frame.camera);
-        } else {
-            pass.emplace(clock.measure(PhaseClock::build, [&] { return evaluate(device, scene, frame); }));
-            report.upload += pass->impl().texture_seconds;
-            report.cache_hit = pass->impl().built.source == BuildSource::disk;
-            built_for = frame;
+        const Frame frame = frame_of(scene, reader, camera);
+        if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
+            kept.emplace(clock.measure(PhaseClock::build, [&] {
+                return KeptBudget{Budget(scene, camera_kind(frame.camera, frame.size), costs_of(device.info)),
+                                  ErrorSample(device, scene, frame, scene.budget)};
+            }));
+        if (scene.output.condition) {
+            if (!condition || !same_shape(frame, condition_for))
+                condition.emplace(clock.measure(PhaseClock::build, [&] { return Condition(device, scene, frame); }));
+            condition_for = frame;
+            condition->set_camera(frame.camera);
         }
         std::optional<int> number;
         if (!options.frames.empty()) number = frames[f];
-        FrameOutputs outputs(scene, pass->impl(), reader, options.directory, number);
-        FrameRun run(pass->impl(), reader, outputs, clock, options.repeat);
-        report.kernels += run.run([&](double share) {
-            if (options.progress)
-                options.progress((static_cast<double>(f) + share) / static_cast<double>(frames.size()));
-        });
-        clock.measure(PhaseClock::write, [&] { outputs.finish(report.files); });
-        clock.measure(PhaseClock::build, [&] { pass->impl().save(); });
+        const auto evaluated = [&](const PassOptions& how, FrameOutputs* outputs) {
+            Pass& pass = passes.get(frame, how);
+            FrameRun run(pass.impl(), reader, clock);
+            if (outputs != nullptr) {
+                run.write_to(*outputs);
+                if (condition) run.add_condition(*condition);
+                run.repeat(options.repeat);
+            }
+            if (kept) run.measure(kept->sample, frame.camera);
+            const double seconds = run.run([&](double share) {
+                if (options.progress && outputs != nullptr)
+                    options.progress((static_cast<double>(f) + share) / static_cast<double>(frames.size()));
+            });
+            clock.measure(PhaseClock::build, [&] { pass.impl().save(); });
+            return seconds;
+        };
+        for (bool done = false; !done;) {
+            const PassOptions how =
+                options_of(kept ? kept->budget.choice() : everything_in(options.precision, scene.layers.size()));
+            FrameOutputs outputs(scene, passes.get(frame, how).impl(), reader, options.directory, number);
+            const double seconds = evaluated(how, &outputs);
+            done = !kept || kept->budget.accept(kept->sample.stats());
+            if (done) {
+                report.kernels += seconds;
+                clock.measure(PhaseClock::write, [&] { outputs.finish(report.files); });
+            } else {
+                kept->budget.raise(kept->sample.stats(), [&](const PrecisionChoice& choice) {
+                    evaluated(options_of(choice), nullptr);
+                    return kept->sample.stats();
+                });
+            }
+        }
         report.pixels += std::uint64_t{frame.size.width} * frame.size.height;
         ++report.frames;
     }
+    if (kept) report.budget = kept->budget.report();
     report.device = device.info;
     for (const Layer& layer : scene.layers) report.layers += std::holds_alternative<ResolveLayer>(layer.bump) ? 0 : 1;
     report.read = clock.seconds(PhaseClock::read);
     report.build = clock.seconds(PhaseClock::build) - report.upload;
     report.write = clock.seconds(PhaseClock::write);
+    report.check = clock.seconds(PhaseClock::check);
     report.kernel_ns_per_pixel = report.kernels / static_cast<double>(report.pixels) * 1e9;
-    report.outside = clock.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::write});
+    report.outside = clock.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
     report.wall = clock.wall();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

@@ -153,4 +153,14 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     return heap;
 }
 
+void check_fits(const TextureHeap& heap, const DeviceInfo& device) {
+    const std::size_t bytes = heap.texels.size() * sizeof(float);
+    if (bytes <= device.largest_buffer) return;
+    const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) / (1 << 20); };
+    throw Error(fmt::format(
+        "the textures and volumes take {:.1f} MiB together; {} allows {:.1f} MiB in one buffer: use smaller "
+        "ones (crop or resample grids), or another device",
+        megabytes(bytes), device.name, megabytes(device.largest_buffer)));
+}
+
 }  // namespace wrinkle

@@ -5,6 +5,7 @@
 
 #include "io/texture_file.h"
 #include "plan/plan.h"
+#include "wrinkle/device.h"
 
 namespace wrinkle {
 
@@ -21,5 +22,8 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 
 /// Loads all textures of a plan. Throws Error for files that cannot be used.
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned);
+
+/// Throws Error, with the sizes, where the heap is more than one buffer of the device may hold.
+void check_fits(const TextureHeap& heap, const DeviceInfo& device);
 
 }  // namespace wrinkle

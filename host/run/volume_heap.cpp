@@ -6,6 +6,7 @@
 #include <bit>
 #include <map>
 
+#include "io/volume_file.h"
 #include "wrinkle/error.h"
 
 #define WR_SCALAR double
@@ -85,6 +86,14 @@ void add_volume(TextureHeap& heap, const Volume& volume, TexelKind kind) {
                                     "scene may have together: crop or resample it",
                                     volume.info.grid));
             }
+}
+
+VolumeReport volume_report(const PlannedTexture& planned) {
+    const Volume volume = load_volume(planned.use.file, planned.grid);
+    TextureHeap heap;
+    add_volume(heap, volume, planned.kind);
+    const auto stored = static_cast<std::size_t>(std::ranges::count_if(volume.blocks, [](int at) { return at >= 0; }));
+    return {volume.info, volume.count, stored, heap.texels.size() * sizeof(float)};
 }
 
 }  // namespace wrinkle

@@ -21,17 +21,22 @@ std::string wanted(const Range& range) {
     return "a number within the range of 32-bit floats";
 }
 
-std::string number(std::string_view field, double& out, const Range& range) {
-    if (field.front() == '+') field.remove_prefix(1);
-    double value = 0;
-    const auto [end, failure] = std::from_chars(field.data(), field.data() + field.size(), value);
-    const bool sound = failure == std::errc() && end == field.data() + field.size() && std::isfinite(value);
+std::string number(double value, double& out, const Range& range) {
     const bool above = range.low_is_allowed ? value >= range.low : value > range.low;
-    if (!sound || !above || value > range.high) return "must be " + wanted(range);
+    if (!above || !(value <= range.high)) return "must be " + wanted(range);
     if (range.low == 0 && !range.low_is_allowed && value < std::numeric_limits<float>::min())
         return "must be at least 1.2e-38, the smallest 32-bit float";
     out = value;
     return {};
+}
+
+/// The number that a whole field is; NaN, which is out of every range, where it is none.
+double parsed(std::string_view field) {
+    if (field.front() == '+') field.remove_prefix(1);
+    double value = 0;
+    const auto [end, failure] = std::from_chars(field.data(), field.data() + field.size(), value);
+    const bool sound = failure == std::errc() && end == field.data() + field.size();
+    return sound ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 template <std::size_t N>
@@ -60,81 +65,84 @@ constexpr const char* wraps[] = {"tile", "clamp"};  // in the order of Wrap
 constexpr const char* modes[] = {"add", "replace"};
 constexpr const char* truths[] = {"no", "yes"};
 
-std::string angle(std::string_view field, double& cosine) {
-    double value = 0;
-    std::string problem = number(field, value, degrees);
+std::string angle(double value, double& cosine) {
+    std::string problem = number(value, value, degrees);
     if (problem.empty()) cosine = std::cos(value * kDegree);
     return problem;
 }
 std::string angle_text(double cosine) { return fmt::format("{:.9g}", std::acos(cosine) / kDegree); }
 
-std::string whole(std::string_view field, std::uint32_t& out) {
-    const auto [end, failure] = std::from_chars(field.data(), field.data() + field.size(), out);
-    const bool sound = failure == std::errc() && end == field.data() + field.size();
+std::string whole(double value, std::uint32_t& out) {
+    const bool sound = value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() && value == std::floor(value);
+    if (sound) out = static_cast<std::uint32_t>(value);
     return sound ? std::string{} : "must be a whole number, 0 or more";
 }
 
-#define NUMBER(NAME, MEMBER, RANGE)                                                        \
-    {                                                                                      \
-        NAME, [](std::string_view f, Projector& p) { return number(f, p.MEMBER, RANGE); }, \
-            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }                 \
+std::string truth(double value, bool& out) {
+    if (value == 0 || value == 1) out = value == 1;
+    return value == 0 || value == 1 ? std::string{} : "must be 0 or 1, bool, or text: \"no\", \"yes\"";
+}
+
+std::string object(double value, std::optional<double>& out) {
+    double index = 0;
+    std::string problem = number(value, index, any_number);
+    if (problem.empty()) out = index;
+    return problem;
+}
+
+/// A column of numbers that `READ(value, member)` checks.
+#define NUMERIC(NAME, MEMBER, READ, WRITE)                                                                           \
+    {                                                                                                                \
+        NAME, [](std::string_view f, Projector& p) { return READ(parsed(f), MEMBER); },                              \
+            [](double value, Projector& p) { return READ(value, MEMBER); }, [](const Projector& p) { return WRITE; } \
     }
-#define CHOICE(NAME, MEMBER, NAMES)                                                           \
-    {                                                                                         \
-        NAME, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); },    \
-            [](const Projector& p) { return std::string(NAMES[static_cast<int>(p.MEMBER)]); } \
+#define NUMBER(NAME, MEMBER, RANGE)                                                                \
+    {                                                                                              \
+        NAME, [](std::string_view f, Projector& p) { return number(parsed(f), p.MEMBER, RANGE); }, \
+            [](double value, Projector& p) { return number(value, p.MEMBER, RANGE); },             \
+            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }                         \
+    }
+#define VECTOR(X, Y, Z, MEMBER, RANGE) \
+    NUMBER(X, MEMBER[0], RANGE), NUMBER(Y, MEMBER[1], RANGE), NUMBER(Z, MEMBER[2], RANGE)
+#define CHOICE(NAME, MEMBER, NAMES, TAKE)                                                        \
+    {                                                                                            \
+        NAME, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); }, TAKE, \
+            [](const Projector& p) { return std::string(NAMES[static_cast<int>(p.MEMBER)]); }    \
     }
 
 // The columns of the position come first: they are the ones that have to be there.
 constexpr DecalColumn columns[] = {
-    NUMBER("x", center[0], any_number),
-    NUMBER("y", center[1], any_number),
-    NUMBER("z", center[2], any_number),
-    CHOICE("shape", shape, shapes),
-    {"texture", [](std::string_view f, Projector& p) { return whole(f, p.texture); },
-     [](const Projector& p) { return fmt::format("{}", p.texture); }},
+    VECTOR("x", "y", "z", center, any_number),
+    CHOICE("shape", shape, shapes, nullptr),
+    NUMERIC("texture", p.texture, whole, fmt::format("{}", p.texture)),
     NUMBER("s0", region[0], zero_to_one),
     NUMBER("t0", region[1], zero_to_one),
     NUMBER("s1", region[2], zero_to_one),
     NUMBER("t1", region[3], zero_to_one),
-    NUMBER("axis_x_x", axis_x[0], any_number),
-    NUMBER("axis_x_y", axis_x[1], any_number),
-    NUMBER("axis_x_z", axis_x[2], any_number),
-    NUMBER("axis_y_x", axis_y[0], any_number),
-    NUMBER("axis_y_y", axis_y[1], any_number),
-    NUMBER("axis_y_z", axis_y[2], any_number),
-    NUMBER("half_x", half_size[0], positive),
-    NUMBER("half_y", half_size[1], positive),
-    NUMBER("half_z", half_size[2], positive),
+    VECTOR("axis_x_x", "axis_x_y", "axis_x_z", axis_x, any_number),
+    VECTOR("axis_y_x", "axis_y_y", "axis_y_z", axis_y, any_number),
+    VECTOR("half_x", "half_y", "half_z", half_size, positive),
     NUMBER("scale", scale, any_number),
-    NUMBER("falloff_x", falloff[0], zero_to_one),
-    NUMBER("falloff_y", falloff[1], zero_to_one),
-    NUMBER("falloff_z", falloff[2], zero_to_one),
-    {"angle_full", [](std::string_view f, Projector& p) { return angle(f, p.angle_fade[1]); },
-     [](const Projector& p) { return angle_text(p.angle_fade[1]); }},
-    {"angle_zero", [](std::string_view f, Projector& p) { return angle(f, p.angle_fade[0]); },
-     [](const Projector& p) { return angle_text(p.angle_fade[0]); }},
-    CHOICE("two_sided", two_sided, truths),
-    CHOICE("wrap", wrap, wraps),
+    VECTOR("falloff_x", "falloff_y", "falloff_z", falloff, zero_to_one),
+    NUMERIC("angle_full", p.angle_fade[1], angle, angle_text(p.angle_fade[1])),
+    NUMERIC("angle_zero", p.angle_fade[0], angle, angle_text(p.angle_fade[0])),
+    CHOICE("two_sided", two_sided, truths, [](double value, Projector& p) { return truth(value, p.two_sided); }),
+    CHOICE("wrap", wrap, wraps, nullptr),
     NUMBER("repeat_s", repeat[0], positive),
     NUMBER("repeat_t", repeat[1], positive),
-    CHOICE("mode", mode, modes),
+    CHOICE("mode", mode, modes, nullptr),
     NUMBER("opacity", opacity, zero_to_one),
     NUMBER("priority", priority, any_number),
-    {"object",
-     [](std::string_view f, Projector& p) {
-         double value = 0;
-         std::string problem = number(f, value, any_number);
-         if (problem.empty()) p.object = value;
-         return problem;
-     },
+    {"object", [](std::string_view f, Projector& p) { return object(parsed(f), p.object); },
+     // Arrays of numbers have no empty fields: there, NaN is any object.
+     [](double value, Projector& p) { return std::isnan(value) ? std::string{} : object(value, p.object); },
      [](const Projector& p) { return p.object ? fmt::format("{}", *p.object) : std::string{}; }},
     {"cryptomatte",
      [](std::string_view f, Projector& p) {
          p.cryptomatte = f;
          return std::string{};
      },
-     [](const Projector& p) { return p.cryptomatte; }},
+     nullptr, [](const Projector& p) { return p.cryptomatte; }},
 };
 
 }  // namespace

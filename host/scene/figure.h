@@ -9,7 +9,9 @@
 
 namespace wrinkle {
 
-enum class PanelPicture { lit, normal, before };  ///< the lit picture, the bumped normals, the frame's own picture
+/// The lit picture, the bumped normals, the frame's own picture, or the condition: black 1 and white 1e6, by its
+/// logarithm.
+enum class PanelPicture { lit, normal, before, condition };
 
 /// One picture of a figure: the scene with some of its layers.
 struct Panel {

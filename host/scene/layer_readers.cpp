@@ -13,6 +13,12 @@ void read_weight(Table& table, Layer& layer) {
     read_place(table, layer);
 }
 
+void read_weight_without_levels(Table& table, Layer& layer) {
+    read_weight(table, layer);
+    if (table.has("footprint") && !layer.mask.texture)
+        table.complain("footprint", "has no effect here: this kind has no levels of detail, only a mask's texture has");
+}
+
 void read_project(Table& table, Layer& layer) { table.read("project", layer.project); }
 
 void read_texture_file(Table& table, TextureUse& texture) {

@@ -9,6 +9,8 @@ namespace wrinkle::scene {
 void read_place(Table& table, Layer& layer);
 /// scale, blend, footprint, mask
 void read_weight(Table& table, Layer& layer);
+/// The same, for kinds without levels of detail: footprint is that of the mask's texture, and refused without one.
+void read_weight_without_levels(Table& table, Layer& layer);
 /// project: for kinds that are gradients in space
 void read_project(Table& table, Layer& layer);
 /// texture

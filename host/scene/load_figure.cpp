@@ -21,7 +21,10 @@ void read_panel(Table& table, const Figure& figure, Panel& out) {
     table.require("caption");
     table.read("caption", out.caption);
     table.choose("picture", out.picture,
-                 {{"lit", PanelPicture::lit}, {"normal", PanelPicture::normal}, {"before", PanelPicture::before}});
+                 {{"lit", PanelPicture::lit},
+                  {"normal", PanelPicture::normal},
+                  {"before", PanelPicture::before},
+                  {"condition", PanelPicture::condition}});
     table.require("layers");
     table.read("layers", out.layers);
     std::vector<std::string> known;
@@ -67,6 +70,9 @@ Figure load_figure(const std::filesystem::path& file) {
         document.problems.add(root.line_of("gbuffer"),
                               "a figure shows one frame: name its files in [gbuffer] and [camera] without a place for "
                               "a number");
+    if (out.scene.budget.max_error)
+        root.document().problems.add(root.line_of("budget"),
+                                     "figures are drawn as they are, not measured; remove [budget]");
     root.finish();
     document.problems.throw_if_any();
     return out;

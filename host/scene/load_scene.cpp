@@ -78,6 +78,7 @@ void read_scene(Table& root, Scene& out) {
     read_layers(root, out.layers);
     read_lights(root, out.lighting);
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);
+    if (auto table = root.table("budget", "[budget]")) read_budget(*table, out.budget);
 }
 
 }  // namespace scene

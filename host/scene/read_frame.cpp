@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "io/camera_json.h"
@@ -154,9 +155,19 @@ void read_output(Table& table, Output& out) {
     table.read("dp_dx", out.dp_dx);
     table.read("dp_dy", out.dp_dy);
     table.read("marked", out.marked);
+    table.read("condition", out.condition);
     table.read("passthrough", out.passthrough);
     table.read("half", out.half);
     table.read("png", out.png);
+    table.finish();
+}
+
+void read_budget(Table& table, ErrorBudget& out) {
+    table.require("max_error");
+    double degrees = 0;
+    if (table.read("max_error", degrees, {.low = 0, .high = 180, .low_is_allowed = false})) out.max_error = degrees;
+    table.read("sample", out.sample, 1, std::numeric_limits<int>::max());
+    table.read("seed", out.seed, 0, std::numeric_limits<int>::max());
     table.finish();
 }
 

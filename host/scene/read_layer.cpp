@@ -11,7 +11,7 @@ void read_constant(Table& table, Layer& layer) {
     table.require("gradient");
     table.read("gradient", bump.gradient);
     read_project(table, layer);
-    read_weight(table, layer);
+    read_weight_without_levels(table, layer);
     layer.bump = bump;
 }
 

@@ -22,7 +22,7 @@ void read_volume(Table& table, Layer& layer) {
         else if (is_singular(bump.transform))
             table.complain("transform", "cannot be inverted: its columns are zero or parallel");
     }
-    read_weight(table, layer);
+    read_weight_without_levels(table, layer);
     layer.bump = bump;
 }
 

@@ -15,6 +15,7 @@ void read_scene(Table& root, Scene& out);
 void read_gbuffer(Table& table, GBufferSource& out);
 void read_camera(Table& table, CameraSource& out);
 void read_output(Table& table, Output& out);
+void read_budget(Table& table, ErrorBudget& out);
 
 /// `number` counts the layers from 1.
 void read_layer(Table& table, std::size_t number, Layer& out);

@@ -21,8 +21,9 @@ struct DeviceInfo {
     std::string platform, name, driver, version;
     std::string type;  ///< "cpu", "gpu", "accelerator"
     unsigned compute_units = 0;
-    std::uint64_t memory = 0;  ///< bytes
-    int lanes = 1;             ///< pixels a work-item will evaluate
+    std::uint64_t memory = 0;          ///< bytes
+    std::uint64_t largest_buffer = 0;  ///< bytes that all textures and volumes together may take
+    int lanes = 1;                     ///< pixels a work-item will evaluate
     bool fp64 = false;
 };
 

@@ -11,6 +11,7 @@
 
 #include "wrinkle/camera.h"
 #include "wrinkle/device.h"
+#include "wrinkle/precision.h"
 
 /// Every kernel function that can be asked by itself, described once: tests, benchmarks, `wrinkle eval` and the
 /// reference page all read this table.
@@ -47,7 +48,7 @@ struct Result : Parameter {
 
 /// What is the same for all rows. Kernel text sees a number as a WR_SCALAR, a vector as a vec3, a camera as `constant
 /// const wr_frame *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const wr_decal *`, a
-/// lattice as the `constant const WR_SCALAR *` that fractal sums take.
+/// table's row as `global const wr_projector *`, a lattice as the `constant const WR_SCALAR *` that fractal sums take.
 struct Setting {
     enum class Kind {
         number,
@@ -59,19 +60,15 @@ struct Setting {
         smooth_volume,   ///< ... for B-splines
         vector_volume,   ///< ... of 3-vectors; the others are of numbers
         projector,       ///< center, axis_x, axis_y, half_size: 12 numbers; then falloff, angle_fade as cosines: 3 more
-        lattice,         ///< frequency of the first octave, lacunarity
+        table_row,  ///< shape (0 box, 1 sphere, 2 cone) and the same 12 numbers; then falloff x, y, z, angle_fade as
+                    ///< cosines, two_sided (0, 1): 6 more
+        lattice,    ///< frequency of the first octave, lacunarity
     };
     std::string name;
     Kind kind = Kind::number;
     std::string meaning;
     std::vector<double> standard{};  ///< the numbers when none are given; empty: must be given
 };
-
-/// fast: native functions or less compensation, with its own error; standard: what scenes use; exact: compensated
-/// further; fp64: everything in double.
-enum class Precision { fast, standard, exact, fp64 };
-/// "fast", "standard", "exact", "double".
-std::string precision_name(Precision precision);
 
 /// A way to compute the same results.
 struct FunctionVariant {
@@ -91,7 +88,6 @@ struct Function {
     std::vector<Result> results{};
     std::vector<FunctionVariant> variants{};  ///< from fast to exact; standard is always there
     double fp64_error = 1e-9;                 ///< largest error of a run in double, by any measure
-    double operations = 0;                    ///< floating-point operations per row, an fma being two; 0: not counted
     std::string note{};                       ///< where the error may be larger, what degenerate input gives
 
     /// The variant that serves `wanted`: itself, else the next more accurate, else the most accurate one.

@@ -10,6 +10,7 @@
 
 #include "wrinkle/device.h"
 #include "wrinkle/gbuffer.h"
+#include "wrinkle/precision.h"
 #include "wrinkle/scene.h"
 
 /// The three passes, callable with host memory or enqueued on the caller's own queue with the caller's buffers.
@@ -40,9 +41,10 @@ using HostDoubles = std::map<std::string, std::span<double>>;
 using DevicePlanes = std::map<std::string, cl::Buffer>;
 
 struct PassOptions {
-    int lanes = 0;       ///< pixels a work-item; 0: the device's choice
-    bool fp64 = false;   ///< evaluate in double, as a reference; outputs are double
-    bool split = false;  ///< one kernel a layer through memory instead of one fused kernel, to compare
+    int lanes = 0;           ///< pixels a work-item; 0: the device's choice
+    bool fp64 = false;       ///< evaluate in double, as a reference; outputs are double
+    bool split = false;      ///< one kernel a layer through memory instead of one fused kernel, to compare
+    Precisions precision{};  ///< of the geometry and the layers; not with fp64, which needs none
 };
 
 /// Rows of the frame held by device planes: rows [first, first + count), preceded by `before` rows that only serve as

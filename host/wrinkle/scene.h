@@ -34,7 +34,7 @@ enum class Content { height, normal, slope, object_normal };
 enum class Upscale { plain, smooth, taps };
 enum class Wrap { repeat, clamp };
 enum class Encoding { automatic, sign, unit };  ///< slopes as they are, or 2 texel - 1; automatic: by the file's format
-enum class SlopeUnit { texel, texture };        ///< what a slope of 1 rises over
+enum class SlopeUnit { texel, texture, metre };  ///< what a slope of 1 rises over; metre: decals
 
 struct TextureUse {
     std::filesystem::path file{};
@@ -363,9 +363,17 @@ struct Lighting {
 
 struct Output {
     bool surface_gradient = false, dp_dx = false, dp_dy = false, marked = false;  ///< beside the normal
+    bool condition = false;    ///< how the normal magnifies input errors; by render(), not by a pass (run/condition.h)
     bool passthrough = false;  ///< copy the channels and metadata of the input
     bool half = false;         ///< 16-bit floats
     bool png = true;           ///< lit.png beside lit.exr when relighting; normal.png too
+};
+
+/// How large an error of the normals may be, and how it is measured: a seeded sample of pixels is evaluated in double.
+struct ErrorBudget {
+    std::optional<double> max_error;  ///< degrees, of any sampled pixel; nothing: standard precision, not measured
+    int sample = 4096;                ///< pixels
+    int seed = 1;
 };
 
 struct Scene {
@@ -375,10 +383,12 @@ struct Scene {
     std::vector<Layer> layers;
     Lighting lighting;
     Output output;
+    ErrorBudget budget;
 };
 
-/// Reads a table of decals (CSV: a row of column names, then a row a decal; README.md lists the columns). Throws Error
-/// with the line and column of each mistake, the first 20 of them. `textures`: how many textures rows may name.
+/// Reads a table of decals: CSV, a row of column names, then a row a decal; or .npy, records with fields of these
+/// names. README.md lists the columns. Throws Error with the line (.npy: the row) and column of each mistake, the first
+/// 20 of them. `textures`: how many textures rows may name.
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures);
 
 /// Writes one that load_decals reads back to the same numbers.

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "tests/cases/cases.h"
 #include "tests/reference/fractal.h"
-#include "tests/reference/noise_shape.h"
+#include "tests/reference/shape.h"
 
 namespace wrinkle::cases {
 
@@ -52,8 +54,11 @@ inline Cases fractal_cases(reference::Octaves kind) {
 }
 
 /// Values around 0 to 1, beyond, and at the ends; gradients of any size. `constants`: the shape's numbers.
+/// `unsure`: how much more the error may be at a value.
 template <class Shape>
-Cases shape_cases(const std::vector<double>& constants, const Shape& shape) {
+Cases shape_cases(
+    const std::vector<double>& constants, const Shape& shape,
+    const std::function<real(real)>& unsure = [](real) { return real{1}; }) {
     Cases c{.name = "shapes"};
     c.data.constants = constants;
     for (unsigned seed = 1; seed <= 200; ++seed) {
@@ -62,7 +67,7 @@ Cases shape_cases(const std::vector<double>& constants, const Shape& shape) {
         const real edges[] = {0, 1, 1e-12L, -1e-12L, 1 - 1e-7L, -2, 2, 0.5L};
         const real value = static_cast<float>(hard ? edges[seed % 8] : random.uniform(-0.25L, 1.25L));
         const V slope = Random::rounded(random.box(random.magnitude(hard ? -10 : -1, hard ? 10 : 1)));
-        c.add(fmt::format("shape, seed {}", seed), hard);
+        c.add(fmt::format("shape, seed {}", seed), hard, unsure(value));
         c.in("f", value), c.in("df_dp", slope);
         const auto want = shape(reference::NoiseValue<real>{value, slope});
         c.out("g", want.value), c.out("dg_dp", want.gradient);

@@ -55,10 +55,10 @@ inline Cases neighbour_cases() {
         Random random(seed);
         const V dp = random.box(0.1L);
         const V2 rate{random.uniform(-0.1L, 0.1L), random.uniform(-0.1L, 0.1L)};
-        const auto make = [&](real direction, bool spoil) {
+        const auto make = [&](real direction, bool spoil, real fold) {
             const real stretch = random.uniform(0.5L, 1.5L);
             Pixel p{true, 3.0f, random.unit(), dp * (direction * stretch),
-                    V2{0.5L, 0.5L} + rate * (direction * random.uniform(0.4L, 2.2L))};
+                    V2{0.5L, 0.5L} + rate * (fold * direction * random.uniform(0.4L, 2.2L))};
             p.normal = Random::rounded(normalize(V{0, 0, 1} + p.normal * 0.3L));
             switch (spoil ? random.below(6) : 6) {
                 case 0:
@@ -87,7 +87,8 @@ inline Cases neighbour_cases() {
             return p;
         };
         const Pixel here{seed % 50 != 0, 3.0f, {0, 0, 1}, {}, {0.5L, 0.5L}};
-        const Pixel before = make(-1, random.below(3) == 0), after = make(1, random.below(3) == 0);
+        const real fold = seed % 11 == 0 ? 0 : seed % 7 == 0 ? -1 : 1;  // beyond a seam that mirrors the coordinates
+        const Pixel before = make(-1, random.below(3) == 0, 1), after = make(1, random.below(3) == 0, fold);
         auto backward = uv_difference(here, before, dp), forward = uv_difference(here, after, dp);
         if (!here.valid) backward = forward = std::nullopt;
         if (backward) backward = *backward * real{-1};

@@ -5,10 +5,12 @@
 #include "tests/cases/displacement.h"
 #include "tests/cases/fractal.h"
 #include "tests/cases/height_map.h"
+#include "tests/cases/neighbours.h"
 #include "tests/cases/noise.h"
 #include "tests/cases/object_scale.h"
 #include "tests/cases/parallax.h"
 #include "tests/cases/perturbed_normal.h"
+#include "tests/cases/projector.h"
 #include "tests/cases/prologue.h"
 #include "tests/cases/resolve.h"
 #include "tests/cases/screen_derivative.h"
@@ -66,10 +68,11 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"perturb_perlin_1985", perlin_perturbation_cases},
         {"planar_texcoord", planar_cases},
         {"project_to_texture", project_to_texture_cases},
+        {"projector_angle_fade", projector_cases},
+        {"projector_gradient", projector_cases},
+        {"projector_locate", projector_cases},
+        {"projector_step", projector_cases},
         {"rebase", rebase_cases},
-        {"remap_ramp", [] { return remap_cases(Remap::ramp); }},
-        {"remap_smooth", [] { return remap_cases(Remap::smooth); }},
-        {"remap_wave", [] { return remap_cases(Remap::wave); }},
         {"reorient_normal", reorient_cases},
         {"resolve", resolve_cases},
         {"resolve_object", object_scale_cases},
@@ -80,6 +83,10 @@ const std::map<std::string, Cases (*)()>& registry() {
          [] { return shape_cases({0.25}, [](const Value& f) { return reference::shape_bias(f, 0.25L); }); }},
         {"shape_power",
          [] { return shape_cases({2.5}, [](const Value& f) { return reference::shape_power(f, 2.5L); }); }},
+        {"shape_ramp",
+         [] {
+             return shape_cases({1, -2}, [](const Value& f) { return reference::shape_ramp(f, 1.0L, -2.0L); });
+         }},
         {"shape_remap",
          [] {
              return shape_cases({-0.5, 2}, [](const Value& f) { return reference::shape_remap(f, -0.5L, 2.0L); });
@@ -88,6 +95,13 @@ const std::map<std::string, Cases (*)()>& registry() {
          [] {
              return shape_cases({-0.25, 0.75},
                                 [](const Value& f) { return reference::shape_smoothstep(f, -0.25L, 0.75L); });
+         }},
+        {"shape_wave",
+         [] {
+             const auto phase = [](real value) { return 2 * std::numbers::pi_v<real> * (value + 0.5L) / 2.5L; };
+             return shape_cases(
+                 {-0.5, 2}, [](const Value& f) { return reference::shape_wave(f, -0.5L, 2.0L); },
+                 [=](real value) { return 1 + 1 / std::abs(std::cos(phase(value))); });
          }},
         {"simplex_noise", [] { return simplex_cases(1 << 20); }},
         {"simplex_noise_central", [] { return simplex_cases(512); }},
@@ -101,6 +115,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"tangent_frame", tangent_frame_cases},
         {"tangent_normal_slope", tangent_normal_cases},
         {"tangent_normal_slope_xy", tangent_normal_xy_cases},
+        {"texture_derivatives", texcoord_changes_cases},
         {"texture_metres", texture_metres_cases},
         {"texture_offset_to_surface", texture_offset_cases},
         {"texture_step", texcoord_step_cases},

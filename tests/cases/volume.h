@@ -94,28 +94,6 @@ inline Cases volume_vector_cases() {
     return c;
 }
 
-/// Ranges in both directions, values in them, at their ends and beyond. Constants of a row: the range.
-inline Cases remap_cases(Remap remap) {
-    Cases c{.name = "remap"};
-    c.data.constants_per_row = 2;
-    for (unsigned seed = 1; seed <= 200; ++seed) {
-        Random random(seed);
-        const real low = random.uniform(-1, 1);
-        const real width = (seed % 2 ? 1 : -1) * random.magnitude(-2, 1), high = static_cast<float>(low + width);
-        const real t = seed % 5 == 0 ? real(seed % 2) : random.uniform(-1, 2);
-        const real value = static_cast<float>(seed % 5 == 0 ? (t != 0 ? high : low) : low + t * (high - low));
-        c.data.constants.push_back(static_cast<double>(low)), c.data.constants.push_back(static_cast<double>(high));
-        // What rounding of value - low leaves of t, and the slope's unit.
-        const real unsure = 1 + (std::abs(low) + std::abs(value)) / std::abs(high - low);
-        c.add("remap, seed " + std::to_string(seed), seed % 5 == 0,
-              unsure * std::max(real{1}, 1 / std::abs(high - low)));
-        c.in("value", value);
-        const V2 want = reference::remapped(remap, value, low, high);
-        c.out("height", want.x), c.out("slope", want.y);
-    }
-    return c;
-}
-
 inline Cases golden_ratio_cases() {
     Cases c{.name = "golden-ratio surface"};
     for (unsigned seed = 1; seed <= 300; ++seed) {

@@ -24,7 +24,21 @@ TEST(Bake, VolumesCanBeUsed) {
     const Ran run = place.run("run scene.toml -o out");
     EXPECT_EQ(run.code, 0) << run.err;
     const Ran explained = place.run("explain scene.toml");
-    expect_mentions(explained.out, {"volume \"fog\"", "wr_volume_trilinear", "wr_volume_vector", "wr_remap_wave"});
+    expect_mentions(explained.out,
+                    {"volume \"fog\"", "wr_volume_trilinear", "wr_volume_vector", "wr_shape_wave",
+                     "\"golden\" of values: ", "of vectors: ", "MB on the device"});
+    expect_mentions(place.run("explain --json scene.toml").out, {"\"volumes\"", "\"grid\": \"golden\"", "\"stored\""});
+}
+
+TEST(Bake, VolumesCanBeSampled) {
+    const Workplace place;
+    ASSERT_EQ(place.run("bake-volume noise --size 16 -o n.vdb").code, 0);
+    write_text(place / "p.csv", "p.x,p.y,p.z\n3.5,4,5\n");
+    const Ran ran = place.run("eval volume_trilinear --set volume=n.vdb --in p.csv --out v.csv");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    expect_mentions(read_text(place / "v.csv"), {"value", "gradient.z"});
+    expect_failed(place.run("eval volume_trilinear --set volume=p.csv --in p.csv --out v.csv"),
+                  {"p.csv", "neither an OpenVDB"});
 }
 
 TEST(Bake, FrameHasWhatAFrameNeeds) {

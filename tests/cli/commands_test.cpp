@@ -108,6 +108,7 @@ TEST(Commands, RunPassesChannelsThrough) {
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(place.files("out"), Names{"normal.exr"});
     const GBufferReader in(data_folder / "gbuffer/small.exr"), out(place / "out/normal.exr");
+    EXPECT_EQ(out.roles().channel_of.at("normal.x"), "normal.X") << "the new ones are found when it is read again";
     const std::string depth = "channel:" + in.roles().channel_of.at("depth");
     ASSERT_TRUE(out.has_plane(depth));
     std::vector<float> before(120 * 68), after(120 * 68);

@@ -88,6 +88,9 @@ TEST(TextureFile, SlopesOfTheWrongChannels) {
     write_exr(folder / "b.exr", 4, 4, {"a", "b", "c", "d", "e", "f"});
     expect_mentions(error_of([&] { load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel); }),
                     {"has 6 channels", "maketx --bumpslopes", "b1_dhds"});
+    const auto bumpslopes = std::filesystem::path(WRINKLE_SOURCE_DIR) / "data/textures/ripples_bumpslopes.exr";
+    expect_mentions(error_of([&] { load_slopes(bumpslopes, Encoding::automatic, SlopeUnit::metre); }),
+                    {"ripples_bumpslopes.exr", "per texture", "metres over metres", "content = \"height\""});
 }
 
 TEST(TextureFile, ObjectNormalsBecomeVectors) {
@@ -137,6 +140,18 @@ TEST(TextureFile, SignedFloatNormalsAreBroughtToZeroToOne) {
     write_exr(folder / "n.exr", 2, 2, {"R", "G", "B"}, [&](int c, int, int) { return m[c]; });
     const auto image = load_texture(folder / "n.exr", ImageUse::normal);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(2 * image.at(0, 1, c) - 1, m[c], 1e-6);
+}
+
+TEST(TextureFile, FloatNormalsAreWhatMostOfThemLookLike) {
+    TempFolder folder;
+    const auto flat = make_spec(4, 4, {"R", "G", "B"});
+    const auto z_of = [&](auto texel) {
+        write_image(folder / "n.exr", {{flat, texel}});
+        return 2 * load_texture(folder / "n.exr", ImageUse::normal).at(2, 2, 2) - 1;
+    };
+    EXPECT_NEAR(z_of([](int c, int, int) { return c == 2 ? 1.0f : 0.0f; }), 1, 1e-6) << "flat, signed";
+    const auto ringing = [](int c, int x, int y) { return c == 2 ? 1.0f : x + y == 0 ? -0.001f : 0.5f; };
+    EXPECT_NEAR(z_of(ringing), 1, 1e-6) << "flat, in [0,1], but for what a resize left in a corner";
 }
 
 TEST(TextureFile, ChannelsThatDoNotFit) {

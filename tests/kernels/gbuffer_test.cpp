@@ -136,5 +136,49 @@ TEST(GBuffer, PositionsRelativeToTheEye) {
             0}});
 }
 
+/// In pairs, positions have about twice the digits.
+TEST(GBuffer, PositionsInPairs) {
+    wr_frame frame{};
+    const V eye{1234567.8901L, -54321.0625L, 3.14159265L}, d0{-0.51L, 0.27L, -1.1L}, dx{0.0013L, 1e-4L, 0},
+        dy{0, -0.0021L, 1e-5L};
+    const auto put = [](double(&to)[3], V v) { to[0] = double(v.x), to[1] = double(v.y), to[2] = double(v.z); };
+    put(frame.eye_high, cases::Random::rounded(eye));
+    put(frame.eye_low, eye - cases::Random::rounded(eye));
+    put(frame.d0, d0), put(frame.dx, dx), put(frame.dy, dy);
+    split_constants(frame);
+    Columns columns;
+    std::vector<std::array<V, 3>> want;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        cases::Random random(seed);
+        const V world = cases::Random::rounded(eye + random.unit() * random.magnitude(-1, 4));
+        const real x = random.below(4096) + 0.5L, y = random.below(2160) + 0.5L, depth = random.magnitude(-1, 4);
+        const real row[] = {world.x, world.y, world.z, x, y, depth};
+        const char* const names[] = {"P.x", "P.y", "P.z", "x", "y", "depth"};
+        for (std::size_t k = 0; k < 6; ++k) columns[names[k]].push_back(static_cast<float>(row[k]));
+        const V ray = d0 + dx * x + dy * y;
+        want.push_back({ray * depth, reference::normalize(ray) * depth, world - eye});
+    }
+    ColumnData data;
+    data.constants.assign(&frame.width, &frame.width + sizeof frame / sizeof(double));
+    ColumnKernel kernel{
+        "constant const wr_frame *frame = (constant const wr_frame *)constants;\n"
+        "wr_pair3 a = wr_position_pairs(frame, x, y, depth), b = wr_distant_position_pairs(frame, x, y, depth);\n"
+        "wr_pair3 c = wr_eye_relative_pairs(frame, P);",
+        {}};
+    for (const char* name : {"a", "b", "c"})
+        for (const char* part : {"high", "low"})
+            for (const char axis : {'x', 'y', 'z'}) kernel.outputs.push_back(fmt::format("{}.{}.{}", name, axis, part));
+    for (const int lanes : all_lanes) {
+        const Results got = run_kernel(kernel, columns, {lanes, false}, data);
+        for (std::size_t i = 0; i < want.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const V sum = cases::value_at(got, 6 * k, 3, i) + cases::value_at(got, 6 * k + 3, 3, i);
+                const double off = double(reference::length(sum - want[i][k]));
+                EXPECT_LE(off, k == 2 ? 5e-9 : 1e-12 * double(reference::length(want[i][k])))
+                    << "position " << k << ", seed " << i + 1 << " on " << lanes << " lanes";
+            }
+    }
+}
+
 }  // namespace
 }  // namespace wrinkle::test

@@ -7,7 +7,7 @@ namespace wrinkle::test {
 namespace {
 
 TEST(Cellular, FindsTheNearestPointsBeyond27Cells) {
-    check(cases::worley_search_cases(), "wr_noise_value n = wr_worley_noise(p, WR_F2);",
+    check(cases::worley_search_cases(), "wr_field n = wr_worley_noise(wr_lattice_at(p), WR_F2);",
           {{"value", {"n.value"}, ErrorMeasure::absolute, 1e-6, 1e-6},
            {"gradient", xyz("n.gradient"), ErrorMeasure::absolute, 1e-6, 1e-6}});
 }
@@ -19,9 +19,41 @@ TEST(Cellular, IsZeroAndFlatOnAFeaturePoint) {
         cases::add_noise(c, fmt::format("point {}", i), true,
                          cell + reference::feature_point<real>(7 * i - 40, i * i, -3 * i), {});
     }
-    check(c, "wr_noise_value n = wr_worley_noise(p, WR_F1);",
+    check(c, "wr_field n = wr_worley_noise(wr_lattice_at(p), WR_F1);",
           {{"value", {"n.value"}, ErrorMeasure::absolute, 0, 0},
            {"gradient", xyz("n.gradient"), ErrorMeasure::absolute, 0, 0}});
+}
+
+/// Far points in small cells: in pairs a point keeps its place in the cell to the digits of a float.
+TEST(Lattice, PairsKeepTheDigitsOfFarPoints) {
+    cases::Cases c{.name = "lattice point"};
+    c.data.constants_per_row = 8;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        cases::Random random(seed);
+        const V p = random.box(random.magnitude(-2, 3)), rest = p * 0x1p-25L * random.uniform(-1, 1);
+        const real frequency = 0.1L + random.magnitude(-1, 2.5L);
+        const V origin{random.uniform(0, 256) / 3, random.uniform(0, 256) / 7, random.uniform(0, 289) / 11};
+        c.add(fmt::format("seed {}", seed), seed > 100);
+        c.in("p", p), c.in("rest", cases::Random::rounded(rest));
+        const real numbers[] = {origin.x, origin.y, origin.z, frequency};
+        for (const real v : numbers) c.data.constants.push_back(static_cast<float>(v));
+        for (const real v : numbers) c.data.constants.push_back(static_cast<double>(v - static_cast<float>(v)));
+        const V q = (p + cases::Random::rounded(rest)) * frequency + origin;
+        const V cell{std::floor(q.x), std::floor(q.y), std::floor(q.z)};
+        c.out("cell", cell), c.out("part", q - cell);
+    }
+    ColumnKernel kernel{"wr_lattice_point at = wr_lattice_at(wr_pairs(p, rest), constants, constants + 4);",
+                        xyz("at.cell")};
+    for (const std::string& part : xyz("at.part")) kernel.outputs.push_back(part);
+    for (const int lanes : {1, 4, 8, 16}) {  // in double the constants come in one piece
+        const Results got = run_kernel(kernel, c.inputs, {lanes, false}, c.data);
+        for (std::size_t row = 0; row < c.size(); ++row) {
+            const V at = cases::value_at(got, 0, 3, row) + cases::value_at(got, 3, 3, row);
+            const V want = c.want.at("cell")[row] + c.want.at("part")[row], part = cases::value_at(got, 3, 3, row);
+            EXPECT_LE(double(reference::length(at - want)), 2e-7) << lanes << " lanes, " << c.labels[row];
+            for (const real v : {part.x, part.y, part.z}) EXPECT_TRUE(v >= 0 && v < 1) << c.labels[row];
+        }
+    }
 }
 
 TEST(NoiseFamily, MeansAreThoseOfTheReference) {

@@ -19,15 +19,6 @@ TEST(TexcoordDerivative, DifferenceOfNeighbours) {
            {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
-TEST(TexcoordDerivative, DerivativesFromChanges) {
-    check(cases::texcoord_changes_cases(),
-          "wr_texcoord_change x = {change_x, step_x}, y = {change_y, step_y};\n"
-          "vec2 dst_dx, dst_dy;\n"
-          "wr_texcoord_from_changes(x, y, dp_dx, dp_dy, &dst_dx, &dst_dy);",
-          {{"dst_dx", xy("dst_dx"), ErrorMeasure::absolute, 1e-6, 1e-6},
-           {"dst_dy", xy("dst_dy"), ErrorMeasure::absolute, 1e-6, 1e-6}});
-}
-
 TEST(HeightDerivative, DifferenceOfNeighbours) {
     check(
         cases::height_neighbour_cases(),

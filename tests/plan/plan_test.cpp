@@ -285,6 +285,16 @@ TEST(Plan, OrdersTablesThatReplaceByPriorityAndOthersByPlace) {
     EXPECT_EQ(make_plan(scene_of({table(rows)}), everything()).tables[0].order, (std::vector<std::uint32_t>{1, 2, 0}));
 }
 
+TEST(Plan, DecalsThatMixNormalsStandByThemselvesAndNeedANormal) {
+    DecalLayer mixed = decal();
+    mixed.mode = DecalMode::projector;
+    const Scene scene = scene_of({layer(decal(), "bumps"), layer(mixed, "mixes")});
+    const Names all = titles(make_plan(scene, everything()));
+    EXPECT_EQ(std::ranges::count(all, "decal \"bumps\""), 1);
+    EXPECT_EQ(std::ranges::count(all, "decal \"mixes\""), 1);
+    EXPECT_THROW(make_plan(scene, everything(), {.normal = false, .view_footprint = true}), Error);
+}
+
 TEST(Plan, OriginsRepeatAsTheirLayersDo) {
     Layer planar = layer(normal_map()), clamped = planar;
     std::get<NormalMapLayer>(planar.bump).uv = {.source = UvSource::planar, .scale = {2, 4}, .offset = {0.25, 0.5}};

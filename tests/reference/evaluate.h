@@ -63,6 +63,7 @@ public:
 
         Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false, {}, {}};
         if (frame_.has("object")) s.object = frame_.plane("object")[i];
+        s.coverage = [&](const std::string& name) { return frame_.coverage(i, name); };
         s.height_slope = [&](const std::string& name) { return frame_.height_slope(i, here, out.base, name); };
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};

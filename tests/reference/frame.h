@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/reference/camera_rays.h"
+#include "tests/reference/mask.h"
 #include "tests/reference/resolve.h"
 #include "tests/reference/uv_derivative.h"
 #include "tests/reference/vertex_frame.h"
@@ -45,6 +46,9 @@ public:
         }
         if (from_depth_) depth_ = planes_.at("depth");
         if (planes_.contains("object")) object_ = planes_.at("object");
+        for (int rank = 0; has("crypto.id" + std::to_string(rank)); ++rank)
+            ranks_.emplace_back(plane("crypto.id" + std::to_string(rank)),
+                                plane("crypto.coverage" + std::to_string(rank)));
     }
 
     Size size() const { return size_; }
@@ -53,6 +57,13 @@ public:
     bool has(const std::string& name) const { return planes_.contains(name); }
     std::span<const float> plane(const std::string& name) const { return planes_.at(name); }
     Vec<T> raw_normal(std::size_t i) const { return {T(normal_[0][i]), T(normal_[1][i]), T(normal_[2][i])}; }
+
+    /// Of pixel i by the Cryptomatte object of this name.
+    T coverage(std::size_t i, const std::string& name) const {
+        std::vector<std::pair<float, float>> pairs;
+        for (const auto& [id, coverage] : ranks_) pairs.emplace_back(id[i], coverage[i]);
+        return cryptomatte_coverage<T>(pairs, cryptomatte_bits(name));
+    }
 
     Decoded<T> decode(std::size_t i) const {
         Decoded<T> d;
@@ -201,6 +212,7 @@ private:
     bool from_depth_ = false, ray_distance_ = false;
     std::vector<std::span<const float>> normal_, position_;
     std::span<const float> depth_, object_;
+    std::vector<std::pair<std::span<const float>, std::span<const float>>> ranks_;  ///< Cryptomatte: ids, coverages
 };
 
 }  // namespace wrinkle::reference

@@ -7,12 +7,12 @@
 #include "tests/reference/fractal.h"
 #include "tests/reference/height_taps.h"
 #include "tests/reference/noise_means.h"
-#include "tests/reference/noise_shape.h"
 #include "tests/reference/normal_transform.h"
 #include "tests/reference/parallax.h"
 #include "tests/reference/perturbed_normal.h"
 #include "tests/reference/projector.h"
 #include "tests/reference/scale_dependent.h"
+#include "tests/reference/shape.h"
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
 #include "tests/reference/texture_metres.h"
@@ -132,8 +132,7 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
     };
 }
 
-/// Every row at every point, in order: by priority where any row replaces, else as they come. Cryptomatte masks of rows
-/// are not known here.
+/// Every row at every point, in order: by priority where any row replaces, else as they come.
 template <class T>
 LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextures<T>& textures) {
     struct Entry {
@@ -151,7 +150,8 @@ LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextu
         Vec<T> sum;
         for (const Entry& e : entries) {
             if (e.row.object && s.object != *e.row.object) continue;
-            add_projector(e.row, e.texture, s, footprint, sum);
+            add_projector(e.row, e.texture, s, footprint,
+                          e.row.cryptomatte.empty() ? T(1) : s.coverage(e.row.cryptomatte), sum);
         }
         return {{}, sum};
     };
@@ -244,7 +244,7 @@ ShiftFunction<T> make_shift(const ParallaxLayer& layer, bool footprint, SceneTex
         if (!pixels) return 0;
         if (footprint) reach *= saturate(std::hypot(pixels->x, pixels->y) * reach / T(0.5L) - 1);
         if (!(reach > 0)) return 0;
-        if (layer.mode == ParallaxMode::offset) return reach * (height(at->st) - level);
+        if (layer.mode == ParallaxMode::offset) return reach * (saturate(height(at->st)) - level);
         const Vec2<T> range = project_to_texture(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, view, false) * reach;
         const T step = parallax_step(texture.pyramid->levels[0], range, texture.lod(at->d, footprint), layer.steps);
         return reach * (parallax_march(height, at->st, range, level, step, layer.steps, layer.refine) - level);

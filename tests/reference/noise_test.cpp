@@ -5,7 +5,7 @@
 
 #include "tests/reference/golden.h"
 #include "tests/reference/noise_means.h"
-#include "tests/reference/noise_shape.h"
+#include "tests/reference/shape.h"
 
 namespace wrinkle::reference {
 namespace {

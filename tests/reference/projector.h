@@ -52,9 +52,9 @@ Vec2<T> projected_step(const Projector& row, const DecalBox<T>& box, Vec<T> posi
     return {quotient(q.x, dq.x), quotient(q.y, dq.y)};
 }
 
-/// What a row makes of the sum of those before it.
+/// What a row makes of the sum of those before it, weighed by `mask`.
 template <class T>
-void add_projector(const Projector& row, const LayerTexture<T>& texture, const Surfel<T>& s, bool footprint,
+void add_projector(const Projector& row, const LayerTexture<T>& texture, const Surfel<T>& s, bool footprint, T mask,
                    Vec<T>& sum) {
     if (!(std::min({row.half_size[0], row.half_size[1], row.half_size[2]}) > 0)) return;
     const DecalBox<T> box = decal_box(from_array<T>(row.center), from_array<T>(row.axis_x), from_array<T>(row.axis_y),
@@ -63,7 +63,8 @@ void add_projector(const Projector& row, const LayerTexture<T>& texture, const S
     T cosine = dot(s.normal, box.z);
     if (row.two_sided) cosine = std::abs(cosine);
     if (cosine <= 0) return;
-    const T weight = at.weight * decal_angle_fade(cosine, T(row.angle_fade[0]), T(row.angle_fade[1])) * T(row.opacity);
+    const T weight =
+        at.weight * decal_angle_fade(cosine, T(row.angle_fade[0]), T(row.angle_fade[1])) * T(row.opacity) * mask;
     if (weight == 0) return;
 
     const bool tiles = row.wrap == Wrap::repeat;

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "tests/reference/frame.h"
-#include "tests/reference/mask.h"
 #include "tests/reference/texcoord.h"
 
 namespace wrinkle::reference {
@@ -17,22 +16,13 @@ public:
         if (mask.object) object_ = frame.plane("object");
         if (mask.channel) channel_ = frame.plane("channel:" + *mask.channel);
         if (mask.texture) texture_ = textures.values(mask.texture->file.string());
-        if (!mask.cryptomatte) return;
-        bits_ = cryptomatte_bits(*mask.cryptomatte);
-        for (int rank = 0; frame.has("crypto.id" + std::to_string(rank)); ++rank)
-            ranks_.emplace_back(frame.plane("crypto.id" + std::to_string(rank)),
-                                frame.plane("crypto.coverage" + std::to_string(rank)));
     }
 
     /// Nothing where its texture lies on a UV plane without a derivative.
     std::optional<T> at(std::size_t i, const Surfel<T>& s) const {
         T m = 1;
         if (mask_.object) m *= object_[i] == static_cast<float>(*mask_.object) ? T(1) : T(0);
-        if (mask_.cryptomatte) {
-            std::vector<std::pair<float, float>> pairs;
-            for (const auto& [id, coverage] : ranks_) pairs.emplace_back(id[i], coverage[i]);
-            m *= cryptomatte_coverage<T>(pairs, bits_);
-        }
+        if (mask_.cryptomatte) m *= s.coverage(*mask_.cryptomatte);
         if (mask_.channel) m *= saturate(T(channel_[i]));
         if (mask_.texture) {
             const auto st = map_coordinates(mask_.texture->uv, s);
@@ -46,8 +36,6 @@ private:
     Mask mask_;
     bool footprint_;
     std::span<const float> object_, channel_;
-    std::vector<std::pair<std::span<const float>, std::span<const float>>> ranks_;
-    std::uint32_t bits_ = 0;
     LayerTexture<T> texture_;
 };
 

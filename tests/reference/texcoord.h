@@ -20,7 +20,8 @@ struct Surfel {
     std::optional<TangentFrame<T>> vertex;  ///< the renderer's tangents; nothing without planes, or not finite
     bool vertex_planes = false;             ///< the G-buffer has them
     std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of a plane, per pixel
-    std::optional<double> object{};  ///< the object's index, where the frame has it
+    std::optional<double> object{};                   ///< the object's index, where the frame has it
+    std::function<T(const std::string&)> coverage{};  ///< by a Cryptomatte object of this name
 };
 
 /// Coordinates that are linear in the world point: derivatives by the chain rule.

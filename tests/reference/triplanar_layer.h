@@ -52,7 +52,10 @@ PlaneFunction<T> plane_of(const TextureUse& use, const TriplanarLayer& layer, bo
             const Vec<T> v =
                 transform_normal({row(m.x.x, m.y.x, m.z.x), row(m.x.y, m.y.y, m.z.y), row(m.x.z, m.y.z, m.z.z)},
                                  texture.vector(at, footprint));
-            return {{}, is_zero(v) ? Vec<T>{} : surface_gradient_from_normal(s.normal, v)};
+            if (is_zero(v)) return {};
+            // No steeper than normal maps are: else a plane of next to no weight would outweigh the others.
+            const Vec<T> g = surface_gradient_from_normal(s.normal, v);
+            return {{}, g * std::min(T(1), T(128) / length(g))};
         }
         Vec2<T> d = texture.slope(at, footprint);
         if (layer.mode == TriplanarMode::geiss) {

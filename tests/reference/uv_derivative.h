@@ -45,15 +45,17 @@ std::optional<UvChange<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& 
 }
 
 /// The change along an axis from a forward and a backward difference: the one of the smaller UV step where one is more
-/// than twice the other, else the mean.
+/// than twice the other, unless it is none; the larger where they point apart, as across a seam that mirrors; else the
+/// mean.
 template <class T>
 std::optional<UvChange<T>> combine_differences(std::optional<UvChange<T>> forward,
                                                std::optional<UvChange<T>> backward) {
     if (!forward) return backward;
     if (!backward) return forward;
     const T f = dot(forward->uv, forward->uv), b = dot(backward->uv, backward->uv);
-    if (f > 4 * b) return backward;
-    if (b > 4 * f) return forward;
+    const auto &smaller = f <= b ? forward : backward, &larger = f < b ? backward : forward;
+    if (std::max(f, b) > 4 * std::min(f, b)) return std::min(f, b) == 0 ? larger : smaller;
+    if (dot(forward->uv, backward->uv) < 0) return larger;
     return (*forward + *backward) * (T(1) / 2);
 }
 

@@ -44,6 +44,10 @@ TEST(UvDerivative, MeanUnlessOneIsMoreThanTwiceTheOther) {
     EXPECT_EQ(combine_differences(a, b)->step.x, 2);
     EXPECT_EQ(combine_differences(a, far)->uv.x, 0.02L);
     EXPECT_EQ(combine_differences(far, a)->uv.x, 0.02L);
+    const Difference mirrored = Change{{-0.03L, 0}, {3, 0, 0}}, none = Change{{0, 0}, {3, 0, 0}};
+    EXPECT_EQ(combine_differences(a, mirrored)->uv.x, -0.03L);
+    EXPECT_EQ(combine_differences(none, a)->uv.x, 0.02L);
+    EXPECT_EQ(combine_differences(none, none)->uv.x, 0);
     EXPECT_EQ(combine_differences(Difference{}, a)->uv.x, 0.02L);
     EXPECT_EQ(combine_differences(a, Difference{})->uv.x, 0.02L);
     EXPECT_FALSE(combine_differences(Difference{}, Difference{}));

@@ -8,10 +8,6 @@ namespace wrinkle::test {
 namespace {
 
 using reference::CameraRays;
-using reference::orthographic_camera;
-using reference::plane_frame;
-using reference::test_camera;
-using reference::tilted_camera;
 
 const V slanted = normalize(V{0.1, -0.2, 1});
 

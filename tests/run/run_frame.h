@@ -22,6 +22,10 @@ namespace wrinkle::test {
 namespace fs = std::filesystem;
 using Pixels = std::map<std::string, std::vector<float>>;
 using V = reference::Vec<double>;
+using reference::orthographic_camera;
+using reference::plane_frame;
+using reference::test_camera;
+using reference::tilted_camera;
 
 inline const fs::path data_folder = fs::path(WRINKLE_SOURCE_DIR) / "data";
 
@@ -109,7 +113,7 @@ inline reference::Images images_of(const Scene& scene) {
                         if (const auto* use = plane ? std::get_if<TextureUse>(&plane->content) : nullptr) add(*use);
                 if constexpr (requires { bump.textures; })
                     for (TextureUse use : bump.textures) {
-                        use.unit = SlopeUnit::texture;  // of decals, slopes are metres over metres
+                        use.unit = SlopeUnit::metre;
                         add(use);
                     }
             },

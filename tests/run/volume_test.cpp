@@ -2,6 +2,8 @@
 #include "tests/reference/volume.h"
 #include "run/bake.h"
 #include "tests/run/run_frame.h"
+#include "tests/run/temp_volume.h"
+#include "wrinkle/functions.h"
 
 namespace wrinkle::test {
 namespace {
@@ -27,12 +29,6 @@ Scene scene_of(VolumeLayer volume, double scale = 1) {
     scene.output = {.surface_gradient = true, .dp_dx = true, .dp_dy = true};
     return scene;
 }
-
-struct TempVolume {
-    fs::path file = fs::temp_directory_path() / ("wrinkle_volume_" + std::to_string(::getpid()) + ".vdb");
-    TempVolume(const DenseVolume& volume) { save_volume(file, volume); }
-    ~TempVolume() { fs::remove(file); }
-};
 
 bool hit(const HostFrame& frame, std::size_t i) { return frame.pixels.at("depth")[i] < 1e9f; }
 
@@ -135,6 +131,30 @@ TEST(VolumeLayer, FollowsItsTransformByTheInverseTranspose) {
         }
         expect_within("linear values, sheared", Spread(errors), {3e-6, 1e-5, 2e-5}, "relative");
     }
+}
+
+TEST(VolumeLayer, ThatIsTooLargeForTheDeviceIsRefusedWithTheSizes) {
+    const HostFrame frame = golden_frame({16, 16});
+    const TempVolume file(bake_volume(device(), BakedVolume::noise, 32));
+    Device small = device();
+    small.info.largest_buffer = 100 << 10;
+    const auto expect_refused = [&](const auto& work) {
+        try {
+            work();
+            ADD_FAILURE() << "nothing was refused";
+        } catch (const Error& error) {
+            for (const char* part : {"textures and volumes take 0.", "allows 0.1 MiB", "crop or resample grids"})
+                EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << part << " in " << error.what();
+        }
+    };
+    expect_refused([&] { evaluate(small, scene_of({.file = file.file}), frame.frame); });
+    const std::vector<float> p(1);
+    std::vector<float> value(1);
+    expect_refused([&] {
+        evaluate_function(small, function("volume_trilinear"), {{"p.x", p}, {"p.y", p}, {"p.z", p}}, {{"value", value}},
+                          {.settings = {{"volume", file.file}}});
+    });
+    EXPECT_NO_THROW(evaluate(device(), scene_of({.file = file.file}), frame.frame));
 }
 
 TEST(VolumeLayer, RefusesWhatItCannotUse) {

@@ -44,6 +44,15 @@ TEST_F(BadScene, Syntax) {
     EXPECT_EQ(problems(std::string("a = \0 1", 7)).size(), 1u);
 }
 
+TEST_F(BadScene, Budgets) {
+    expect_problem_with("[budget]\nsample = 10\n", 5, {"[budget]", "max_error"});
+    for (const char* value : {"0", "-0.1", "181", "inf", "nan", "\"small\""})
+        expect_problem_with(std::string("[budget]\nmax_error = ") + value + "\n", 6, {"max_error", "[budget]"});
+    expect_problem_with("[budget]\nmax_error = 1\nsample = 0\n", 7, {"sample"});
+    expect_problem_with("[budget]\nmax_error = 1\nseed = -1\n", 7, {"seed"});
+    expect_problem_with("[budget]\nmax_erorr = 1\nmax_error = 1\n", 6, {"did you mean \"max_error\"?"});
+}
+
 TEST_F(BadScene, UnknownKeys) {
     EXPECT_EQ(
         problems(frame_ + "[[layer]]\nname = \"cobbles\"\nkind = \"constant\"\ngradient = [0, 0, 1]\nscael = 2\n"),
@@ -161,6 +170,9 @@ TEST_F(BadScene, WaysToCombineAndToCompare) {
     expect_problem_with(layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\ncombine = \"rmn\"\n"), 8,
                         {"is \"rmn\"; did you mean \"rnm\"?", "\"whiteout\""});
     expect_problem_with(layer("kind = \"height_channel\"\n"), 5, {"needs the key \"channel\""});
+    expect_problem_with(decal("mode = \"projektor\"\n"), 9, {"did you mean \"projector\"?"});
+    expect_problem_with(height_map("upscale = \"taps\"\nwrap = \"clamp\"\n"), 8, {"\"taps\", which repeats"});
+    expect_problem_with(triplanar("upscale = \"taps\"\n"), 8, {"\"plain\", \"smooth\""});
     expect_problem_with(height_map("project = false\n"), 8, {"does not belong to kind \"height_map\" but to"});
     expect_problem_with(triplanar("mode = \"geiss\"\n"), 8, {"only with content = \"normal\""});
     expect_problem_with(triplanar("mode = \"perlim\"\n"), 8, {"did you mean \"perlin\"?"});

@@ -126,9 +126,15 @@ surface_gradient = true
 dp_dx = true
 dp_dy = true
 marked = true
+condition = true
 passthrough = true
 half = true
 png = false
+
+[budget]
+max_error = 0.05
+sample = 1000
+seed = 7
 )";
 
 }  // namespace wrinkle

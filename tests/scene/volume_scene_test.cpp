@@ -23,6 +23,11 @@ TEST_F(VolumeScene, EveryKey) {
     EXPECT_EQ(scene.layers[0].scale, 2);
 }
 
+TEST_F(VolumeScene, FootprintOfItsMask) {
+    EXPECT_FALSE(
+        load_with(volume("footprint = false\nmask = { texture = \"textures/wall.png\" }\n")).layers.at(0).footprint);
+}
+
 TEST_F(VolumeScene, Defaults) {
     const Scene scene = load_with(volume(""));
     const auto& layer = std::get<VolumeLayer>(scene.layers.at(0).bump);
@@ -43,6 +48,9 @@ TEST_F(VolumeScene, BadValues) {
                         {"\"transform\"", "cannot be inverted"});
     expect_problem_with(volume("transform = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]\n"), 8,
                         {"must be affine"});
+    expect_problem_with(volume("footprint = false\n"), 8, {"\"footprint\"", "no levels of detail"});
+    expect_problem_with("[[layer]]\nkind = \"constant\"\ngradient = [1, 0, 0]\nfootprint = true\n", 8,
+                        {"no levels of detail"});
 }
 
 }  // namespace

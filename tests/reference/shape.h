@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "tests/reference/noise.h"
 
 namespace wrinkle::reference {
@@ -13,6 +15,18 @@ NoiseValue<T> composed(const NoiseValue<T>& f, T value, T slope) {
 template <class T>
 NoiseValue<T> shape_remap(const NoiseValue<T>& f, T low, T high) {
     return composed(f, (f.value - low) / (high - low), 1 / (high - low));
+}
+
+template <class T>
+NoiseValue<T> shape_ramp(const NoiseValue<T>& f, T low, T high) {
+    const T t = (f.value - low) / (high - low);
+    return composed(f, saturate(t), t > 0 && t < 1 ? 1 / (high - low) : T(0));
+}
+
+template <class T>
+NoiseValue<T> shape_wave(const NoiseValue<T>& f, T low, T high) {
+    const T turn = 2 * std::numbers::pi_v<T>, phase = turn * (f.value - low) / (high - low);
+    return composed(f, std::sin(phase), turn * std::cos(phase) / (high - low));
 }
 
 /// Upstill 1989, dented(): a power.

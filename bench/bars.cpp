@@ -1,0 +1,105 @@
+#include "bars.h"
+
+#include <fmt/format.h>
+
+namespace wrinkle::bench {
+
+namespace {
+
+/// A measurement by what it is called; of several, such as one for each compiler, the fastest.
+struct Subject {
+    const char *group, *name, *variant;
+};
+
+struct Promise {
+    const char* name;
+    Subject of, to;
+    double limit;
+    bool at_most = true;
+    bool per_byte = false;  ///< times of a byte moved, not of a pixel
+};
+
+// Times of one thing per pixel, as multiples of the time of another in the same run.
+constexpr Promise kPromises[] = {
+    {"8 decals / omp simd", {"stack", "decal_stack", "standard"}, {"stack", "decal_stack", "omp simd"}, 0.85},
+    {"8 decals / plain C++", {"stack", "decal_stack", "standard"}, {"stack", "decal_stack", "plain C++"}, 0.25},
+    {"8 decals / by hand", {"stack", "decal_stack", "standard"}, {"stack", "decal_stack", "by hand"}, 1.2},
+    {"resolve / C++, plain stores", {"memory", "resolve", "standard"}, {"memory", "resolve", "plain C++"}, 1.1},
+    {"resolve / triad, a byte",
+     {"memory", "resolve", "standard"},
+     {"memory", "triad", "C++ past the cache"},
+     1 / 0.75,
+     true,
+     true},
+    {"Perlin and gradient / differences",
+     {"noise", "perlin_noise", "value and gradient"},
+     {"noise", "perlin_noise", "forward differences"},
+     0.40},
+    {"Perlin and gradient / value only",
+     {"noise", "perlin_noise", "value and gradient"},
+     {"noise", "perlin_noise", "value only"},
+     1.45},
+    {"screen derivatives / copy", {"screen", "screen_derivatives", "standard"}, {"screen", "copy", "same bytes"}, 1.3},
+    {"demo: plain C++ / fused", {"scene", "courtyard", "plain C++"}, {"scene", "courtyard", "fused"}, 4, false},
+    {"demo: one kernel a layer / fused",
+     {"scene", "courtyard", "one kernel a layer"},
+     {"scene", "courtyard", "fused"},
+     2,
+     false},
+    {"one core / two, arithmetic",
+     {"cores", "arithmetic", "one core"},
+     {"cores", "arithmetic", "two cores"},
+     1.85,
+     false},
+    {"one core / two, 8 decals",
+     {"cores", "decal_stack", "one core"},
+     {"cores", "decal_stack", "two cores"},
+     1.85,
+     false},
+    {"a pixel of 1 / of 8 Mpixel", {"size", "courtyard", "1 Mpixel"}, {"size", "courtyard", "8 Mpixel"}, 1.1},
+    {"a pixel of 33 / of 8 Mpixel", {"size", "courtyard", "33 Mpixel"}, {"size", "courtyard", "8 Mpixel"}, 1.1},
+    {"a pixel of 133 / of 8 Mpixel", {"size", "courtyard", "133 Mpixel"}, {"size", "courtyard", "8 Mpixel"}, 1.1},
+    {"wrinkle run / oiiotool", {"files", "resolve", "wrinkle run"}, {"files", "resolve", "oiiotool"}, 0.65},
+};
+
+/// The fastest of those of this variant, on however many lanes; else of those whose variant starts so; null where there
+/// is none.
+const Measurement* find(const Run& run, const Subject& wanted) {
+    const Measurement* best = nullptr;
+    const auto exact = [&](const Measurement& m) { return m.variant == wanted.variant; };
+    for (const Measurement& m : run.measurements) {
+        if (m.group != wanted.group || m.name != wanted.name || m.seconds.median <= 0) continue;
+        if (!m.variant.starts_with(wanted.variant)) continue;
+        const bool better =
+            best == nullptr || (exact(m) == exact(*best) ? m.ns_per_pixel() < best->ns_per_pixel() : exact(m));
+        if (better) best = &m;
+    }
+    return best;
+}
+
+std::string verdict(const Bar& bar) {
+    if (std::abs(bar.ratio - bar.limit) <= bar.spread * bar.ratio / 2) return "not told apart";
+    return (bar.ratio <= bar.limit) == bar.at_most ? "met" : "missed";
+}
+
+}  // namespace
+
+std::vector<Bar> bars_of(const Run& run) {
+    std::vector<Bar> bars;
+    for (const Promise& promise : kPromises) {
+        const Measurement *of = find(run, promise.of), *to = find(run, promise.to);
+        if (of == nullptr || to == nullptr) continue;
+        const Ratio r = ratio(of->seconds, to->seconds);
+        Bar bar{.name = promise.name, .verdict = {}, .ratio = r.value, .spread = r.spread, .limit = promise.limit};
+        bar.ratio *= static_cast<double>(to->pixels) / static_cast<double>(of->pixels);
+        if (promise.per_byte) bar.ratio *= to->bytes / of->bytes;
+        bar.at_most = promise.at_most;
+        bar.of = of->key(), bar.to = to->key();
+        bar.of_p99 = of->error.p99, bar.to_p99 = to->error.p99, bar.unit = of->unit;
+        bar.verdict = verdict(bar);
+        bars.push_back(bar);
+    }
+    return bars;
+}
+
+}  // namespace wrinkle::bench

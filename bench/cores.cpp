@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include "contests.h"
+#include "resident.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+/// Part of a device, as a device.
+Device part_of(const Device& device, cl_uint cores) {
+    const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, static_cast<intptr_t>(cores),
+                                                      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    std::vector<cl::Device> parts;
+    cl::Device whole = device.device;
+    whole.createSubDevices(by_counts, &parts);
+    const cl::Context context(parts.front());
+    return Device::adopt(context, cl::CommandQueue(context, parts.front()));
+}
+
+}  // namespace
+
+void measure_cores(const Device& device, Size size, Run& run) {
+    if (device.info.type != "cpu" || device.info.compute_units < 2) return;
+    const std::pair<const char*, std::filesystem::path> scenes[] = {
+        {"arithmetic", WRINKLE_SOURCE_DIR "/bench/scenes/arithmetic.toml"}, {"decal_stack", stack_scene()}};
+    try {
+        const Device one = part_of(device, 1), two = device.info.compute_units == 2 ? device : part_of(device, 2);
+        for (const auto& [name, file] : scenes) {
+            const Scene from_file = load_scene(file);
+            const BenchFrame frame = Resampler(from_file).frame(size);
+            const Scene scene = without_lighting(from_file, frame.frame);
+            const ReferenceSample reference(scene, frame, kErrorSamples, kSeed);
+            Resident on_one(one, scene, frame, {.lanes = device.info.lanes}),
+                on_two(two, scene, frame, {.lanes = device.info.lanes});
+            std::vector<Contender> contenders{{"one core", [&] { on_one.run(); }},
+                                              {"two cores", [&] { on_two.run(); }}};
+            race(contenders, run.repetitions);
+            for (const auto& [contender, resident] :
+                 {std::pair{&contenders[0], &on_one}, std::pair{&contenders[1], &on_two}})
+                run.measurements.push_back(scene_measurement("cores", name, contender->name, device.info.lanes,
+                                                             contender->seconds, resident->pass,
+                                                             resident->normals(frame.pixels()), reference));
+        }
+    } catch (const cl::Error&) { fmt::print("one core and two: this device cannot be divided\n"); }
+}
+
+}  // namespace wrinkle::bench

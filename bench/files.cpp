@@ -1,0 +1,118 @@
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "contests.h"
+#include "error.h"
+#include "resident.h"
+#include "temporary_folder.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kChannels = 27;
+
+/// What a pass of a render looks like to a compressor: smooth, with a little grain, in the digits of a half.
+float other_pass(int channel, std::size_t x, std::size_t y) {
+    const std::uint32_t grain = static_cast<std::uint32_t>(x * 0x9e3779b1u ^ y * 0x85ebca6bu) * 0x27d4eb2du >> 30;
+    const float smooth = 0.5F + 0.3F * std::sin(0.002F * static_cast<float>(x) * static_cast<float>(channel));
+    return (std::floor(1024 * smooth) + static_cast<float>(grain)) / 1024;
+}
+
+/// A ZIP EXR of 27 float channels: depth, normals, texture coordinates, and passes that nobody asks for.
+void write_frame(const fs::path& file, const BenchFrame& frame) {
+    const Size size = frame.frame.size;
+    const std::pair<const char*, const char*> known[] = {{"N.X", "normal.x"}, {"N.Y", "normal.y"}, {"N.Z", "normal.z"},
+                                                         {"UV.U", "uv.u"},    {"UV.V", "uv.v"},    {"Z", "depth"}};
+    OIIO::ImageSpec spec(static_cast<int>(size.width), static_cast<int>(size.height), kChannels, OIIO::TypeDesc::FLOAT);
+    spec.attribute("compression", "zip");
+    spec.channelnames.clear();
+    std::vector<float> pixels(frame.pixels() * kChannels);
+    for (int c = 0; c < kChannels; ++c) {
+        const bool given = c < static_cast<int>(std::size(known));
+        spec.channelnames.push_back(given ? known[c].first : fmt::format("pass{:02}.{}", c / 3, "RGB"[c % 3]));
+        const float* plane = given ? frame.planes.at(known[c].second).data() : nullptr;
+        for (std::size_t i = 0; i < frame.pixels(); ++i)
+            pixels[i * kChannels + static_cast<std::size_t>(c)] =
+                given ? plane[i] : other_pass(c, i % size.width, i / size.width);
+    }
+    const auto out = OIIO::ImageOutput::create(file.string());
+    if (!out || !out->open(file.string(), spec) || !out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()))
+        throw Error(fmt::format("cannot write {}", file.string()));
+}
+
+Normals read_normals(const fs::path& file, std::size_t pixels) {
+    const auto in = OIIO::ImageInput::open(file.string());
+    Normals n(pixels);
+    if (!in) throw Error(fmt::format("cannot read {}", file.string()));
+    const std::vector<std::string>& names = in->spec().channelnames;
+    std::vector<float> all(pixels * names.size());
+    in->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, all.data());
+    for (auto [axis, plane] : {std::pair{"X", &n.x}, {"Y", &n.y}, {"Z", &n.z}}) {
+        std::size_t c = 0;
+        while (c < names.size() && !names[c].ends_with(axis)) ++c;
+        if (c == names.size())
+            throw Error(fmt::format("{} holds {}, no normals", file.string(), fmt::join(names, ", ")));
+        for (std::size_t i = 0; i < pixels; ++i) (*plane)[i] = all[i * names.size() + c];
+    }
+    return n;
+}
+
+void call(const std::string& command) {
+    if (std::system((command + " >/dev/null").c_str()) != 0) throw Error("this command failed: " + command);
+}
+
+}  // namespace
+
+void measure_files(Size size, Run& run) {
+    if (std::system("oiiotool --help >/dev/null 2>&1") != 0) {
+        fmt::print("files: not measured, there is no oiiotool (package openimageio-tools)\n");
+        return;
+    }
+    const fs::path data = WRINKLE_SOURCE_DIR "/data";
+    const TemporaryFolder folder;
+    const fs::path exr = folder.path() / "frame.exr", scene_file = folder.path() / "scene.toml";
+    std::ofstream(scene_file) << "[gbuffer]\nfile = \"frame.exr\"\ndepth = \"planar\"\n[camera]\nfile = \""
+                              << (data / "gbuffer/courtyard.camera.json").string()
+                              << "\"\n[output]\npng = false\n[[layer]]\nkind = \"height_map\"\n"
+                                 "texture = \""
+                              << (data / "textures/weave_normal.png").string()
+                              << "\"\nscale = 0.002\nuv = { scale = 12 }\n";
+    const BenchFrame frame = Resampler(load_scene(data / "scenes/courtyard.toml")).frame(size);
+    write_frame(exr, frame);
+
+    const std::string wrinkle_run = fmt::format("'{}' run '{}' -o '{}' --quiet", WRINKLE_CLI, scene_file.string(),
+                                                (folder.path() / "out").string());
+    const std::string copy =
+        fmt::format("oiiotool -i:ch=N.X,N.Y,N.Z,UV.U,UV.V,Z '{}' --ch N.X,N.Y,N.Z --compression zip -o '{}'",
+                    exr.string(), (folder.path() / "copied.exr").string());
+    std::vector<Contender> contenders{{"wrinkle run", [&] { call(wrinkle_run); }}, {"oiiotool", [&] { call(copy); }}};
+    race(contenders, std::max(3, run.repetitions / 3));
+
+    const Scene scene = load_scene(scene_file);
+    const ReferenceSample reference(scene, frame, kErrorSamples, kSeed);
+    Measurement m{.group = "files",
+                  .name = "resolve",
+                  .variant = "wrinkle run",
+                  .pixels = frame.pixels(),
+                  .seconds = contenders[0].seconds,
+                  .bytes = 4.0 * (kChannels + 3)};
+    m.error = reference.compare(read_normals(folder.path() / "out/normal.exr", frame.pixels()));
+    run.measurements.push_back(m);
+    m.variant = "oiiotool", m.seconds = contenders[1].seconds;
+    const Normals copied = read_normals(folder.path() / "copied.exr", frame.pixels());
+    m.error = {}, m.error.samples = frame.pixels();
+    for (std::size_t i = 0; i < frame.pixels(); ++i)
+        m.error.not_finite += copied.x[i] == frame.planes.at("normal.x")[i] ? 0 : 1;
+    run.measurements.push_back(m);
+}
+
+}  // namespace wrinkle::bench

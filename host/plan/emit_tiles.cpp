@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "plan/geometry_text.h"
+#include "plan/layer_text.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr const char* kLoad = "wr_load_near({}, here, pixels)";
+const std::string kIndent(12, ' ');
+
+/// Text that grows the tile's box around p, or around where on its ray parallaxes may move it.
+std::string grow_text(const Emitter& emitter, const MovedPoints& moved) {
+    if (moved.text.empty()) return kIndent + "box = wr_grow(box, valid, p, axes);\n";
+    const bool parallel = emitter.available.camera == CameraKind::parallel;
+    std::string text = fmt::format(
+        "{0}vec3 v = {1};\n"
+        "{0}real distance = sqrt(wr_dot(p, p)), nearer = 0, farther = 0;\n{2}",
+        kIndent, to_viewer_text(emitter),
+        moved.by_normal
+            ? kIndent + "vec3 n = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), v));\n"
+            : "");
+    text += moved.text;
+    for (const char* way : {"nearer", "-farther"})
+        text += fmt::format("{}box = wr_grow(box, valid, {}, axes);\n", kIndent,
+                            parallel ? fmt::format("wr_fma(v, {}, p)", way)
+                                     : fmt::format("wr_scale(p, distance > 0 ? 1 - ({}) / distance : (real)(1))", way));
+    return text;
+}
+
+}  // namespace
+
+PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
+    const GeometryText geometry = geometry_text(emitter);
+    const MovedPoints moved = moved_points(emitter, kIndent);
+    std::vector<std::string> inputs = geometry.planes;
+    if (moved.by_normal) inputs.insert(inputs.end(), {"normal.x", "normal.y", "normal.z"});
+    std::string planes;
+    for (const std::string& plane : inputs)
+        planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
+    source += fmt::format(
+        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *axes, global float *bounds,
+    uint tiles, uint supers,
+{}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
+{{
+    uint tile = get_global_id(0);
+    if (tile >= tiles) return;
+    uint2 corner = wr_tile_corner(tile, supers);
+    wr_growing box = wr_no_box();
+    for (uint row = corner.y; row < min(corner.y + WR_TILE_HEIGHT, rows); ++row)
+        for (uint column = corner.x; column < min(corner.x + WR_TILE_WIDTH, width); column += WR_LANES) {{
+            long here = (long)in_first + (long)row * width + column, pixels = in_pixels;
+            real x = wr_lane_number() + (real)(column + WR_R(0.5)), y = (real)(first_row + row + WR_R(0.5));
+{}            mask valid = {}{} & (x < width);
+{}            {}
+{}        }}
+    wr_store_bounds(box, bounds, tiles, tile);
+}}
+
+)",
+        planes, load_geometry(geometry, kLoad, kIndent) + (moved.by_normal ? load_normal(kLoad, kIndent) : ""),
+        moved.by_normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent),
+        geometry.position, grow_text(emitter, moved));
+    return {"wr_bin_tiles", inputs, {}, {}};
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,100 @@
+#include "plan/geometry_text.h"
+
+#include <fmt/format.h>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+GeometryText geometry_text(const Emitter& emitter) {
+    const Available& available = emitter.available;
+    const Geometry wanted = emitter.scene.gbuffer.geometry;
+    const bool depth_possible = emitter.has("depth") && available.camera != CameraKind::general &&
+                                !(available.ray_depth && available.camera == CameraKind::parallel);
+    const bool depth = wanted == Geometry::depth || (wanted == Geometry::automatic && depth_possible);
+    if (depth) {
+        emitter.need("geometry from depth", {"depth"});
+        if (!depth_possible)
+            throw Error(
+                "geometry from depth needs a pinhole camera, or planar depth under a parallel projection; set "
+                "geometry = \"position\"");
+        const bool parallel = available.camera == CameraKind::parallel;
+        return {{"depth"},
+                "wr_valid_depth(z)",
+                parallel              ? "vec3 p = wr_parallel_position(frame, x, y, wr_real(z));"
+                : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
+                                      : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));",
+                parallel              ? ""
+                : available.ray_depth ? "wr_distant_position_pairs(frame, x, y, wr_real(z))"
+                                      : "wr_position_pairs(frame, x, y, wr_real(z))"};
+    }
+    const std::string file = emitter.scene.gbuffer.file.string(), here = file.empty() ? "" : file + ": ";
+    if (wanted == Geometry::automatic && !emitter.has("depth") && !emitter.has("position.x"))
+        emitter.need(here + "geometry, by a depth or a position pass,", {"depth"});
+    emitter.need(here + (wanted == Geometry::automatic && emitter.has("depth")
+                             ? "geometry under a camera that its depth does not serve"
+                             : "geometry from positions"),
+                 {"position.x", "position.y", "position.z"});
+    return {{"position.x", "position.y", "position.z"},
+            "wr_valid_position(px, py, pz)",
+            "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));",
+            "wr_eye_relative_pairs(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)))"};
+}
+
+std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent) {
+    std::string text;
+    if (geometry.planes.size() == 1) {
+        text += fmt::format("{}floats z = {};\n", indent, fmt::format(fmt::runtime(load), "in_depth"));
+    } else {
+        for (const char axis : {'x', 'y', 'z'})
+            text += fmt::format("{}floats p{} = {};\n", indent, axis,
+                                fmt::format(fmt::runtime(load), fmt::format("in_position_{}", axis)));
+    }
+    return text;
+}
+
+std::string load_normal(const std::string& load, const std::string& indent) {
+    std::string text;
+    for (const char axis : {'x', 'y', 'z'})
+        text += fmt::format("{}floats n{} = {};\n", indent, axis,
+                            fmt::format(fmt::runtime(load), fmt::format("in_normal_{}", axis)));
+    return text;
+}
+
+std::string sanitize(const GeometryText& geometry, const std::string& indent) {
+    std::string text = geometry.planes.size() == 1 ? indent + "z = wr_valid_or(z, valid, 1);\n" : "";
+    if (geometry.planes.size() == 3)
+        for (const char axis : {'x', 'y', 'z'})
+            text += fmt::format("{0}p{1} = wr_valid_or(p{1}, valid, {2});\n", indent, axis, axis == 'z' ? 1 : 0);
+    return text;
+}
+
+const char* view_text(const Emitter& emitter) {
+    return emitter.available.camera == CameraKind::parallel ? "wr_v3(frame->forward)" : "p";
+}
+
+const char* to_viewer_text(const Emitter& emitter) {
+    return emitter.available.camera == CameraKind::parallel
+               ? "wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)))"
+               : "wr_normalize(wr_scale(p, (real)(-1)))";
+}
+
+std::string derivative_text(const Emitter& emitter) {
+    const bool exact = emitter.geometry_precision() == Precision::exact;
+    if (emitter.available.camera != CameraKind::pinhole)
+        return fmt::format("        wr_screen_derivatives_general{}(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n",
+                           exact ? "_exact" : "");
+    const std::string ray = "        vec3 d = wr_ray(frame, at.x, at.y);\n";
+    if (exact)
+        return ray + "        wr_screen_derivatives_exact(frame, n, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
+    return ray + "        wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
+}
+
+std::string face_viewer_text(const Emitter& emitter) {
+    return fmt::format(
+        "        mask away;\n"
+        "        n = wr_face_viewer(n, {}, &away);\n",
+        view_text(emitter));
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "plan/section.h"
+
+namespace wrinkle {
+
+/// Where positions come from.
+struct GeometryText {
+    std::vector<std::string> planes;
+    std::string valid;     ///< mask of the planes, as text
+    std::string position;  ///< sets p from pixel (x, y) and plane values z or px, py, pz
+    std::string pairs;     ///< the same as a wr_pair3; empty where there is none such
+};
+
+GeometryText geometry_text(const Emitter& emitter);
+/// Text that loads one pixel's geometry; `load` is the loading function with its place.
+std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent);
+std::string load_normal(const std::string& load, const std::string& indent);
+/// Replaces what invalid pixels hold by something harmless, so that nothing later needs to ask.
+std::string sanitize(const GeometryText& geometry, const std::string& indent);
+/// What lies along the ray from the viewer, of any length.
+const char* view_text(const Emitter& emitter);
+/// Unit vector from p to the viewer.
+const char* to_viewer_text(const Emitter& emitter);
+
+}  // namespace wrinkle

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "io/gbuffer_reader.h"
+#include "run/condition.h"
+#include "run/error_sample.h"
+#include "run/frame_outputs.h"
+#include "run/phase_clock.h"
+
+namespace wrinkle {
+
+/// One frame in bands, three in flight: while one is evaluated the next is read and the last is written.
+class FrameRun {
+public:
+    FrameRun(Pass::Impl& pass, const GBufferReader& reader, PhaseClock& clock)
+        : pass_(pass), reader_(reader), clock_(clock) {}
+
+    void write_to(FrameOutputs& outputs) { outputs_ = &outputs; }
+    /// Measures errors on the way; the sample was not started.
+    void measure(ErrorSample& sample, const Camera& camera);
+    /// Writes the condition of every pixel too.
+    void add_condition(Condition& condition) { condition_ = &condition; }
+    /// Enqueues the kernels this often, to time them.
+    void repeat(int times) { repeat_ = times; }
+
+    /// Returns the seconds kernels took.
+    double run(const std::function<void(double)>& progress = {});
+
+private:
+    /// Planes of a band in memory that both sides reach, and where they lie.
+    struct Slot {
+        PlaneBuffers inputs, outputs;
+        Rows rows;
+        std::map<std::string, std::vector<float>> narrowed;  ///< outputs of a pass in double
+        std::vector<float> condition;
+    };
+
+    void read(Slot& slot);
+    void evaluate(Slot& slot);
+    void write(Slot& slot);
+
+    Pass::Impl& pass_;
+    const GBufferReader& reader_;
+    PhaseClock& clock_;
+    FrameOutputs* outputs_ = nullptr;
+    ErrorSample* sample_ = nullptr;
+    Condition* condition_ = nullptr;
+    int repeat_ = 1;
+    std::vector<std::string> names_;
+    double kernel_seconds_ = 0;
+};
+
+}  // namespace wrinkle

@@ -1,0 +1,166 @@
+// Tables of decals, against the double evaluator, and against themselves in another order or made in another way.
+#include "tests/run/decal_frames.h"
+
+namespace wrinkle::test {
+namespace {
+
+std::size_t bumped_pixels(const Truth& truth) {
+    return static_cast<std::size_t>(std::ranges::count_if(truth.pixels, [](const auto& pixel) {
+        return pixel.valid && angle_degrees(pixel.normal, pixel.base_normal) > 0.5;
+    }));
+}
+
+TEST(DecalTables, OfDecalsThatAddDoNotDependOnTheirOrder) {
+    const HostFrame frame = small_frame();
+    std::vector<Projector> rows = on_surfaces(frame, 2000, 0.05, 0.5, 21);
+    const Scene scene = table_scene(rows);
+    std::ranges::shuffle(rows, std::mt19937(4));
+    const Scene shuffled = table_scene(rows);
+    EXPECT_EQ(largest_difference(evaluate_on(frame, scene), evaluate_on(frame, shuffled)), 0);
+    Pass a = accumulate_decals(device(), scene.layers, frame.frame);
+    Pass b = accumulate_decals(device(), shuffled.layers, frame.frame);
+    EXPECT_EQ(largest_difference(run(a, frame), run(b, frame)), 0);
+}
+
+TEST(DecalTables, ReplaceByPriorityWhateverTheirOrder) {
+    const HostFrame frame = small_frame();
+    std::vector<Projector> rows = on_surfaces(frame, 300, 0.2, 1, 22);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].priority = static_cast<double>(i) - 100;
+        rows[i].mode = i % 3 == 0 ? ProjectorMode::add : ProjectorMode::replace;
+        rows[i].opacity = 0.3 + 0.7 * static_cast<double>(i % 5) / 4;
+    }
+    const Scene scene = table_scene(rows);
+    std::ranges::reverse(rows);
+    EXPECT_EQ(largest_difference(evaluate_on(frame, scene), evaluate_on(frame, table_scene(rows))), 0);
+    const Pixels got = evaluate_on(frame, scene);
+    expect_within("replacing decals", normal_error(got, Truth(frame, scene)), {2e-5, 1e-3, 2e-2}, "degrees");
+}
+
+TEST(DecalTables, AgreeWithTheSameDecalsAsLayers) {
+    const HostFrame frame = small_frame();
+    std::vector<Projector> rows = on_surfaces(frame, 12, 0.3, 1, 23);
+    Scene layers;
+    for (Projector& row : rows) {
+        row.shape = ProjectorShape::box;
+        row.two_sided = false;
+        row.angle_fade = {0.2, 0.5};
+        row.scale = 0.02;
+        DecalLayer decal;
+        decal.texture = {.file = data_folder / "textures/seal_height.png", .wrap = Wrap::clamp};
+        decal.center = row.center, decal.axis_x = row.axis_x, decal.axis_y = row.axis_y;
+        decal.half_size = row.half_size;
+        decal.angle_fade = {0.2, 0.5};
+        Layer& layer = layers.layers.emplace_back();
+        layer.name = fmt::format("decal {}", layers.layers.size());
+        layer.scale = row.scale;
+        layer.bump = decal;
+    }
+    const Pixels one = evaluate_on(frame, table_scene(rows)), other = evaluate_on(frame, layers);
+    EXPECT_LE(largest_difference(one, other), 2e-4);
+}
+
+TEST(DecalTables, InDoubleAndInSplitKernels) {
+    const HostFrame frame = small_frame();
+    const Scene scene = table_scene(on_surfaces(frame, 200, 0.1, 0.8, 25));
+    const Truth truth(frame, scene);
+    expect_within("float", normal_error(evaluate_on(frame, scene), truth), {3e-6, 3e-3, 3e-2}, "degrees");
+    expect_within("split", normal_error(evaluate_on(frame, scene, {.split = true}), truth), {3e-6, 3e-3, 3e-2},
+                  "degrees");
+    Pass pass = evaluate(device(), scene, frame.frame, {.fp64 = true});
+    expect_within("double", normal_error(run<double>(pass, frame), truth), {3e-6, 2e-5, 2e-4}, "degrees");
+}
+
+/// Every shape with every content, clamped and tiled, by itself so that nothing hides an error.
+TEST(DecalTables, OfEveryShapeAndContent) {
+    const HostFrame frame = small_frame();
+    const std::pair<Content, const char*> contents[] = {{Content::height, "textures/seal_height.png"},
+                                                        {Content::normal, "textures/weave_normal.png"},
+                                                        {Content::slope, "textures/rock_slopes.png"}};
+    for (const ProjectorShape shape : {ProjectorShape::box, ProjectorShape::sphere, ProjectorShape::cone})
+        for (const auto& [content, file] : contents)
+            for (const Wrap wrap : {Wrap::clamp, Wrap::repeat}) {
+                std::vector<Projector> rows = on_surfaces(frame, 40, 0.2, 0.9, 27);
+                for (Projector& row : rows) {
+                    row.shape = shape, row.wrap = wrap;
+                    row.repeat = {2, 1.5};
+                    row.region = {0.125, 0, 0.875, 0.75};
+                    row.scale = content == Content::height ? 0.05 : 0.4;
+                    row.falloff = {0.2, 0, 0.5};
+                }
+                Scene scene = table_scene(rows);
+                std::get<DecalsLayer>(scene.layers[0].bump).textures = {
+                    {.file = data_folder / file, .content = content}};
+                const Truth truth(frame, scene);
+                const Pixels got = evaluate_on(frame, scene);
+                const auto name = fmt::format("shape {}, {}, {}", int(shape), file, wrap == Wrap::clamp ? "" : "tiled");
+                expect_within(name, normal_error(got, truth), {2e-5, 5e-3, 0.1}, "degrees");
+                EXPECT_GT(bumped_pixels(truth), 1000u) << name;
+            }
+}
+
+TEST(DecalTables, OfRowsWithMasks) {
+    const HostFrame frame = small_frame();
+    ASSERT_GE(frame.frame.cryptomatte.size(), 3u);
+    std::vector<Projector> rows = on_surfaces(frame, 200, 0.2, 1.5, 28);
+    std::vector<std::string> names;
+    for (const auto& [name, hash] : frame.frame.cryptomatte) names.push_back(name);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (i % 3 == 0) rows[i].object = static_cast<double>(1 + i / 3 % 6);
+        if (i % 3 == 1) rows[i].cryptomatte = names[i / 3 % names.size()];
+        rows[i].scale = 0.1;
+    }
+    const Scene scene = table_scene(rows);
+    const Truth truth(frame, scene);
+    expect_within("rows with masks", normal_error(evaluate_on(frame, scene), truth), {2e-5, 5e-3, 0.1}, "degrees");
+    for (Projector& row : rows) row.object.reset(), row.cryptomatte.clear();
+    const Truth unmasked(frame, table_scene(rows));
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < frame.count(); ++i)
+        changed += angle_degrees(truth.pixels[i].normal, unmasked.pixels[i].normal) > 1 ? 1 : 0;
+    EXPECT_GT(changed, 1000u) << "masks that change nothing are not tested";
+    rows[0].cryptomatte = names[0], rows[0].object = 1;
+    EXPECT_THROW(evaluate(device(), table_scene(rows), frame.frame), Error);
+    rows[0].cryptomatte = "no such object", rows[0].object.reset();
+    EXPECT_THROW(evaluate(device(), table_scene(rows), frame.frame), Error);
+}
+
+TEST(DecalTables, FollowWhatParallaxesMove) {
+    const HostFrame frame = small_frame();
+    for (const auto& [name, layers] : parallax_stacks()) {
+        Scene scene = table_scene(decals_around(positions(frame, layers), 300, 0.02, 0.5, 26));
+        scene.layers.insert(scene.layers.begin(), layers.begin(), layers.end());
+        const Truth truth(frame, scene);
+        expect_within(name, normal_error(evaluate_on(frame, scene), truth), {3e-5, 2e-2, 1}, "degrees");
+    }
+}
+
+TEST(DecalTables, InBandsAndOnOtherLanes) {
+    const HostFrame frame = small_frame();
+    const Scene scene = table_scene(on_surfaces(frame, 800, 0.05, 0.5, 24));
+    const Pixels whole = evaluate_on(frame, scene);
+    for (const int lanes : {1, 4, 8})
+        EXPECT_LE(largest_difference(whole, evaluate_on(frame, scene, {.lanes = lanes})), 2e-3) << lanes;
+    Pass pass = evaluate(device(), scene, frame.frame);
+    const std::size_t width = frame.frame.size.width, bytes = padded(frame.count()) * sizeof(float);
+    Pixels banded;
+    for (const std::string& name : pass.outputs()) banded[name].resize(frame.count());
+    for (const auto& [first, count] : {std::pair{0u, 13u}, {13u, 40u}, {53u, 15u}}) {
+        DevicePlanes in, out;
+        for (const std::string& name : pass.inputs()) {
+            in[name] = cl::Buffer(device().context, CL_MEM_READ_ONLY, bytes);
+            device().queue.enqueueWriteBuffer(in[name], CL_TRUE, 0, count * width * sizeof(float),
+                                              frame.pixels.at(name).data() + first * width);
+        }
+        for (const std::string& name : pass.outputs())
+            out[name] = cl::Buffer(device().context, CL_MEM_READ_WRITE, bytes);
+        pass.enqueue(in, out, {.first = first, .count = count}).wait();
+        for (const std::string& name : pass.outputs())
+            device().queue.enqueueReadBuffer(out[name], CL_TRUE, 0, count * width * sizeof(float),
+                                             banded[name].data() + first * width);
+    }
+    EXPECT_EQ(largest_difference(whole, banded), 0);
+}
+
+}  // namespace
+}  // namespace wrinkle::test
