@@ -203,6 +203,19 @@ TEST(VolumeFile, NewerVersionsAndDamageAreRefused) {
     }
 }
 
+TEST(VolumeFile, DamageIsToldOnOneLine) {
+    TempFolder folder;
+    save_volume(folder / "a.vdb", box());
+    std::string bytes = bytes_of(folder / "a.vdb");
+    const std::size_t map = bytes.find("AffineMap");
+    ASSERT_NE(map, std::string::npos);
+    bytes[map] = '\n';
+    write_bytes(folder / "a.vdb", bytes);
+    const std::string text = refusal(folder / "a.vdb");
+    expect_refused(text, {"a.vdb: cannot be read; it may be truncated or damaged"});
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+}
+
 TEST(VolumeFile, MissingAndWrongGridsAreToldWithWhatThereIs) {
     TempFolder folder;
     save_volume(folder / "a.vdb", box());  // registers the types
