@@ -145,8 +145,8 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, std::vect
     }
     constexpr std::size_t most_of_png = 4;
     if (extension == ".png" && channels.size() > most_of_png) {
-        throw Error(fmt::format("cannot write {}: a PNG holds up to {} channels, these are {}; use .exr", file.string(),
-                                most_of_png, channels.size()));
+        throw Error(fmt::format("cannot write {}: {} channels are more than the {} that a PNG holds; use .exr",
+                                file.string(), channels.size(), most_of_png));
     }
     if (size.width == 0 || size.height == 0 || channels.empty()) {
         throw Error(fmt::format("cannot write {}: {}x{} with {} channels is not a picture", file.string(), size.width,
