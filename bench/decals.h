@@ -1,6 +1,7 @@
 #pragma once
 
 #include "record.h"
+#include "wrinkle/camera.h"
 #include "wrinkle/device.h"
 
 namespace wrinkle::bench {

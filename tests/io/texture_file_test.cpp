@@ -188,7 +188,7 @@ TEST(TextureFile, DamagedFiles) {
         folder / "cut.png", 64, 64, {"Y"},
         [](int, int x, int y) { return static_cast<float>(x * y * 7919 % 251) / 251; }, OIIO::TypeUInt8);
     std::filesystem::resize_file(folder / "cut.png", std::filesystem::file_size(folder / "cut.png") / 2);
-    expect_mentions(error_of([&] { load_texture(folder / "cut.png", ImageUse::scalar); }), {"cut.png:", "damaged"});
+    expect_mentions(error_of([&] { load_texture(folder / "cut.png", ImageUse::scalar); }), {"cut.png:", "truncated"});
 }
 
 }  // namespace

@@ -38,13 +38,13 @@ struct Lists {
 };
 
 /// Upright boxes, about which tests of boxes are exact, and the bounds of 16 children among them.
-struct Setup {
+struct BinSetup {
     std::vector<Box> decals;
     DecalBounds bounds;
     std::vector<Box> children;
     std::vector<float> child_planes = std::vector<float>(96);
 
-    Setup() {
+    BinSetup() {
         std::vector<wr_projector> records;
         for (unsigned i = 0; i < kDecals; ++i) {
             Random random(i + 1);
@@ -75,7 +75,7 @@ struct Setup {
     }
 };
 
-Lists lists_of(const Setup& setup, unsigned capacity) {
+Lists lists_of(const BinSetup& setup, unsigned capacity) {
     const Device& device = test_device();
     const BuiltProgram built = build_program(
         device,
@@ -132,7 +132,7 @@ std::vector<unsigned> everything() {
 }
 
 TEST(BinLists, HoldWhatTouchesInTheOrderOfTheTable) {
-    const Setup setup;
+    const BinSetup setup;
     const Lists got = lists_of(setup, 100'000);
     Box around = setup.children[0];
     for (const Box& child : setup.children) {
@@ -156,7 +156,7 @@ TEST(BinLists, HoldWhatTouchesInTheOrderOfTheTable) {
 }
 
 TEST(BinLists, TakeTheirParentsWhereThereIsNoRoom) {
-    const Setup setup;
+    const BinSetup setup;
     const Lists plenty = lists_of(setup, 100'000), none = lists_of(setup, kDecals);
     EXPECT_FALSE(none.super.own);
     EXPECT_EQ(none.super.entries, everything());

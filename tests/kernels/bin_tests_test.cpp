@@ -71,8 +71,12 @@ TEST(BinTests, ABoxHoldsTheValidPointsAndTheirSlack) {
     data.constants = {0, 1, 0, -1, 0, 0, 0, 0, 1};  // a quarter turn
     const Results got =
         run_kernel(f, {{"p.x", {3, 3}}, {"p.y", {-5, -5}}, {"p.z", {100, 100}}, {"use", {1, 0}}}, {8, false}, data);
-    EXPECT_LE(got[0][0], -5), EXPECT_GE(got[1][0], -5), EXPECT_NEAR(got[0][0], -5, 1e-3);
-    EXPECT_LE(got[2][0], -3), EXPECT_GE(got[3][0], -3), EXPECT_NEAR(got[3][0], -3, 1e-3);
+    EXPECT_LE(got[0][0], -5);
+    EXPECT_GE(got[1][0], -5);
+    EXPECT_NEAR(got[0][0], -5, 1e-3);
+    EXPECT_LE(got[2][0], -3);
+    EXPECT_GE(got[3][0], -3);
+    EXPECT_NEAR(got[3][0], -3, 1e-3);
     EXPECT_LT(got[0][0], got[1][0]) << "100 away, positions are not exact";
     EXPECT_GT(got[0][1], got[1][1]) << "an invalid pixel adds nothing";
     EXPECT_EQ(got[4][0], 1);

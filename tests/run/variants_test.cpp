@@ -84,7 +84,7 @@ TEST(Variants, AnyNumberOfStagesAgreesWithTheReference) {
 }
 
 TEST(Variants, DoubleAgreesWithTheReference) {
-    if (!device().info.fp64) GTEST_SKIP() << device().info.name << " has no double precision";
+    if (!device().info.fp64) GTEST_SKIP() << "needs double precision, which " << device().info.name << " lacks";
     const HostFrame frame = small_frame();
     Scene noise = data_scene("noise");  // no texels: nothing but arithmetic
     noise.layers.push_back(data_scene("constant").layers.at(0));
