@@ -53,8 +53,9 @@ Function row(const Noise& noise, const char* suffix, const char* way, const char
     f.parameters = {vector("p", "lattice cells", "point, up to 2^22 cells from the origin")};
     std::string simplex;
     if (std::string(noise.basis) == "WR_SIMPLEX") {
-        f.settings = {{"period", Setting::Kind::vector, "whole cells at which each axis repeats; 0: 289", {0, 0, 0}},
-                      {"rotation", Setting::Kind::number, "radians by which gradients are turned", {0}}};
+        f.settings = {
+            {"period", Setting::Kind::vector, "cells at which each axis repeats; 0: 289", {0, 0, 0}, 0, 1 << 20, true},
+            {"rotation", Setting::Kind::number, "radians by which gradients are turned", {0}}};
         simplex =
             ",\n    .simplex = {{wr_lane(period.x, 0), wr_lane(period.y, 0), wr_lane(period.z, 0)}, 1},"
             "\n    .cosine = cos(rotation), .sine = sin(rotation)";
@@ -78,7 +79,7 @@ Function fractal(const char* name, const char* kind, const char* summary, const 
                     number("footprint", "metres", "longest side of the pixel's footprint; 0: every octave")};
     f.settings = {{"lattice", Setting::Kind::lattice, "frequency of the first octave, lacunarity", {1, 2}},
                   {"gain", Setting::Kind::number, "amplitude of an octave to that of the one before", {0.5}},
-                  {"octaves", Setting::Kind::number, "1 to 16", {8}}};
+                  {"octaves", Setting::Kind::number, "octaves", {8}, 1, 16, true}};
     std::string ridged;
     if (std::string(kind) == "WR_RIDGED") {
         f.settings.push_back({"offset", Setting::Kind::number, "height of the ridges", {1}});
@@ -155,12 +156,13 @@ std::vector<Function> noise_functions() {
                         {number_setting("low", "where a wave begins", 0), number_setting("high", "where it ends", 1)},
                         "Over the cosine of the phase; for values of the size of high - low."));
     all.push_back(shape("power", "A power of a field: dents", "Mikkelsen 2020, section 4.6; Upstill 1989",
-                        {number_setting("exponent", "1 at least", 2)}, "0 for f <= 0."));
+                        {Setting{"exponent", Setting::Kind::number, "of the power", {2}, 1}}, "0 for f <= 0."));
     all.push_back(shape("smoothstep", "A field eased from 0 at low to 1 at high", "Mikkelsen 2020, section 4.6",
                         {number_setting("low", "what becomes 0", 0), number_setting("high", "what becomes 1", 1)},
                         "Gradient 0 outside."));
     all.push_back(shape("bias", "A field in [0, 1] bent so that 1/2 becomes the bias", "Schlick 1994",
-                        {number_setting("bias", "in (0, 1)", 0.25)}, "Clamped; gradient 0 at 0, at 1 and beyond."));
+                        {Setting{"bias", Setting::Kind::number, "what 1/2 becomes", {0.25}, 1e-6, 1 - 1e-6}},
+                        "Clamped; gradient 0 at 0, at 1 and beyond."));
     return all;
 }
 

@@ -53,7 +53,8 @@ std::string errors_of(const Function& function, const FunctionVariant& variant) 
 std::string standard_of(const Setting& setting) {
     std::vector<std::string> numbers;
     for (const double number : setting.standard) numbers.push_back(digits(number));
-    return numbers.empty() ? "required" : "default " + joined(numbers, ",");
+    const std::string range = range_text(setting);
+    return (numbers.empty() ? "required" : "default " + joined(numbers, ",")) + (range.empty() ? "" : ", " + range);
 }
 
 /// For a cell of a table.

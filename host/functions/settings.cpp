@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "functions/tables.h"
 #include "io/volume_file.h"
@@ -65,6 +66,23 @@ wr_projector row_of(const std::vector<double>& v) {
     return projector_constants(row, {.texture = 0, .height = true}, 1, {});
 }
 
+/// Throws unless every number is finite, in the setting's range, and whole where it must be; and the half sizes of a
+/// projector, which the region is divided by, are above 0.
+void check_range(const Function& function, const Setting& setting, const std::vector<double>& numbers) {
+    const auto fail = [&](double found, const std::string& expected) {
+        throw Error(
+            fmt::format("{}: the setting \"{}\" holds {}; expected {}", function.name, setting.name, found, expected));
+    };
+    for (const double number : numbers)
+        if (!std::isfinite(number) || number < setting.least || number > setting.most ||
+            (setting.whole && number != std::floor(number)))
+            fail(number, range_text(setting).empty() ? "a finite number" : range_text(setting));
+    if (setting.kind != Kind::projector && setting.kind != Kind::table_row) return;
+    const std::size_t half_size = setting.kind == Kind::projector ? 9 : 10;
+    for (std::size_t i = half_size; i < half_size + 3; ++i)
+        if (numbers[i] <= 0) fail(numbers[i], "a half_size above 0");
+}
+
 /// FILE, or FILE#GRID.
 PlannedTexture volume_of(const std::filesystem::path& name, Kind kind) {
     const std::string text = name.string();
@@ -113,6 +131,15 @@ const char* wanted_text(Setting::Kind kind) {
     return "";
 }
 
+std::string range_text(const Setting& setting) {
+    const char* const number = setting.whole ? "whole numbers" : "numbers";
+    if (setting.most < std::numeric_limits<double>::max())
+        return fmt::format("{} from {:g} to {:g}", number, setting.least, setting.most);
+    if (setting.least > std::numeric_limits<double>::lowest())
+        return fmt::format("{} from {:g}", number, setting.least);
+    return "";
+}
+
 SettingSize size_of(const Setting& setting) {
     switch (setting.kind) {
         case Kind::vector:
@@ -153,10 +180,12 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
         const bool fits = setting.kind == Kind::camera ? camera != nullptr
                           : count.most == 0
                               ? file != nullptr
-                              : numbers && numbers->size() >= count.least && numbers->size() <= count.most;
+                              : numbers && numbers->size() >= count.least && numbers->size() <= count.most &&
+                                    (setting.kind != Kind::projector || numbers->size() % 3 == 0);
         if (!fits)
             throw Error(fmt::format("{}: the setting \"{}\" must be {}", function.name, setting.name,
                                     wanted_text(setting.kind)));
+        if (numbers) check_range(function, setting, *numbers);
         switch (setting.kind) {
             case Kind::number:
             case Kind::vector:

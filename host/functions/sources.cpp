@@ -79,7 +79,7 @@ std::vector<Function> source_functions() {
          .summary = "Weights of three planar projections; they sum to 1",
          .source = "Mikkelsen 2020, listing 14",
          .parameters = {given_normal},
-         .settings = {{"sharpness", Setting::Kind::number, "exponent k of the weights", {3}}},
+         .settings = {{"sharpness", Setting::Kind::number, "exponent k of the weights", {3}, 0}},
          .results = {result(vector("w", "1", "weights of the x, y and z plane"), {absolute})},
          .variants = {{standard, "w = wr_triplanar_weights(n, sharpness);", {3e-7}}}},
         {.name = "triplanar_gradient",

@@ -24,6 +24,9 @@ struct SettingSize {
 };
 SettingSize size_of(const Setting& setting);
 
+/// The numbers that a setting takes, "whole numbers from 1 to 16"; empty where any will do.
+std::string range_text(const Setting& setting);
+
 /// "3 numbers"
 const char* wanted_text(Setting::Kind kind);
 

@@ -39,7 +39,7 @@ void read_height_channel(Table& table, Layer& layer) {
     HeightChannelLayer bump;
     table.require("channel");
     table.read("channel", bump.channel);
-    read_weight(table, layer);
+    read_weight_without_levels(table, layer);
     layer.bump = bump;
 }
 

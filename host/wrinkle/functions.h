@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -68,6 +69,8 @@ struct Setting {
     Kind kind = Kind::number;
     std::string meaning;
     std::vector<double> standard{};  ///< the numbers when none are given; empty: must be given
+    double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();  ///< of each number
+    bool whole = false;
 };
 
 /// A way to compute the same results.

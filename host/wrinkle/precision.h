@@ -7,6 +7,9 @@ namespace wrinkle {
 
 /// fast: native functions or less compensation, with its own error; standard: what scenes use; exact: compensated
 /// further; fp64: everything in double.
+///
+///     wrinkle::PassOptions careful;
+///     careful.precision = {wrinkle::Precision::exact, {wrinkle::Precision::exact}};  // of one layer
 enum class Precision { fast, standard, exact, fp64 };
 
 /// "fast", "standard", "exact", "double".

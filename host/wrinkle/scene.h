@@ -13,7 +13,7 @@
 #include "wrinkle/camera.h"
 
 /// A scene: what to read, which bump layers to add, what to write. Value types; nothing here knows files or OpenCL.
-/// README.md, "Scene format", is the reference of the TOML form; load_scene() reads it.
+/// data/scenes/README.md is the reference of the TOML form; load_scene() reads it.
 ///
 ///     wrinkle::Layer grain;
 ///     grain.name = "grain";
@@ -387,7 +387,7 @@ struct Scene {
 };
 
 /// Reads a table of decals: CSV, a row of column names, then a row a decal; or .npy, records with fields of these
-/// names. README.md lists the columns. Throws Error with the line (.npy: the row) and column of each mistake, the first
+/// names. data/scenes/README.md lists the columns. Throws Error with the line (.npy: the row) and column of each mistake, the first
 /// 20 of them. `textures`: how many textures rows may name.
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures);
 

@@ -127,6 +127,11 @@ TEST(Eval, SettingsAreNumbersTexturesAndCameras) {
     const Ran soft = place.run("eval triplanar_weights --in in.csv --set sharpness=soft");
     expect_failed(soft, {"sharpness", "soft"});
     EXPECT_EQ(soft.code, 2);
+    expect_failed(place.run("eval triplanar_weights --in in.csv --set sharpness=nan"), {"sharpness", "nan", "from 0"});
+    write_text(place / "q.csv", "p.x,p.y,p.z,footprint\n1,2,3,0\n");
+    for (const char* octaves : {"17", "2.5", "100000000"})
+        expect_failed(place.run(fmt::format("eval fractal_sum --in q.csv --set octaves={}", octaves)),
+                      {"octaves", "whole numbers from 1 to 16"});
     expect_failed(place.run("eval triplanar_weights --in in.csv --set sharpness"), {"NAME=VALUE"});
 
     const std::string camera = Workplace::data_file("gbuffer/small.camera.json");

@@ -71,6 +71,9 @@ TEST(HeaderExample, SceneAndPasses) {
     std::vector<float> out_x(pixels), out_y(pixels), out_z(pixels);
     scene.layers[0].mask = {};  // no object plane here
     const wrinkle::Frame frame{size, camera, {"depth", "normal.x", "normal.y", "normal.z"}};
+    wrinkle::PassOptions careful;
+    careful.precision = {wrinkle::Precision::exact, {wrinkle::Precision::exact}};  // of one layer
+    EXPECT_EQ(wrinkle::evaluate(wrinkle::Device::open(), scene, frame, careful).inputs().size(), 4u);
     auto pass = wrinkle::evaluate(wrinkle::Device::open(), scene, frame);
     pass.run({{"depth", depth}, {"normal.x", nx}, {"normal.y", ny}, {"normal.z", nz}},
              {{"normal.x", out_x}, {"normal.y", out_y}, {"normal.z", out_z}});

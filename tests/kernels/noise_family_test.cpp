@@ -42,9 +42,9 @@ TEST(Lattice, PairsKeepTheDigitsOfFarPoints) {
         const V cell{std::floor(q.x), std::floor(q.y), std::floor(q.z)};
         c.out("cell", cell), c.out("part", q - cell);
     }
-    ColumnKernel kernel{"wr_lattice_point at = wr_lattice_at(wr_pairs(p, rest), constants, constants + 4);",
-                        xyz("at.cell")};
-    for (const std::string& part : xyz("at.part")) kernel.outputs.push_back(part);
+    ColumnKernel kernel{"wr_lattice_point point = wr_lattice_at(wr_pairs(p, rest), constants, constants + 4);",
+                        xyz("point.cell")};
+    for (const std::string& part : xyz("point.part")) kernel.outputs.push_back(part);
     for (const int lanes : {1, 4, 8, 16}) {  // in double the constants come in one piece
         const Results got = run_kernel(kernel, c.inputs, {lanes, false}, c.data);
         for (std::size_t row = 0; row < c.size(); ++row) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "tests/scene/scene_folder.h"
 
 namespace wrinkle {
@@ -49,8 +51,8 @@ TEST_F(VolumeScene, BadValues) {
     expect_problem_with(volume("transform = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]\n"), 8,
                         {"must be affine"});
     expect_problem_with(volume("footprint = false\n"), 8, {"\"footprint\"", "no levels of detail"});
-    expect_problem_with("[[layer]]\nkind = \"constant\"\ngradient = [1, 0, 0]\nfootprint = true\n", 8,
-                        {"no levels of detail"});
+    for (const char* kind : {"\"constant\"\ngradient = [1, 0, 0]", "\"height_channel\"\nchannel = \"dust\""})
+        expect_problem_with(fmt::format("[[layer]]\nkind = {}\nfootprint = true\n", kind), 8, {"no levels of detail"});
 }
 
 }  // namespace
