@@ -1,4 +1,5 @@
 // Error budgets of scenes: kept on every scene of data/scenes, against the double evaluator of the references.
+#include <algorithm>
 #include <limits>
 
 #include "run/choose_precision.h"
@@ -23,7 +24,8 @@ Scene on_small_frame(const std::string& name, const HostFrame& frame) {
     return scene;
 }
 
-/// Degrees between what a run wrote and the truth: the largest over all valid pixels.
+/// Degrees between what a run wrote and the truth: the largest over all valid pixels but those without a usable
+/// neighbour, at the horizon, where kernels and references may decide otherwise.
 double largest_error(const fs::path& file, const Truth& truth) {
     const GBufferReader reader(file);
     Pixels got;
@@ -35,7 +37,11 @@ double largest_error(const fs::path& file, const Truth& truth) {
         into.push_back((got[plane] = std::vector<float>(truth.pixels.size())).data());
     }
     reader.read_rows(0, reader.size().height, names, into);
-    return normal_error(got, truth).max;
+    std::vector<bool> left_out(truth.pixels.size());
+    for (std::size_t i = 0; i < left_out.size(); ++i)
+        left_out[i] = (truth.pixels[i].marked & Marked::no_uv_derivative) != 0;
+    EXPECT_LE(std::ranges::count(left_out, true), 400) << "of 8160 pixels";
+    return normal_error(got, truth, left_out).max;
 }
 
 class Budgets : public testing::TestWithParam<const char*> {};
@@ -56,7 +62,7 @@ TEST_P(Budgets, AreKept) {
                    report.budget->measured.max, report.budget->measured.samples, report.budget->precision);
         for (const std::string& miss : report.budget->misses) fmt::print("  missed by {}\n", miss);
         EXPECT_LE(error, max_error) << report.budget->precision;
-        EXPECT_NEAR(report.budget->measured.max, error, 1e-6 + 0.01 * error);
+        EXPECT_LE(error, 1.01 * report.budget->measured.max + 6e-6) << "6e-6: what floats of a file round off";
     }
 }
 
@@ -64,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Budgets,
                          testing::Values("combine", "comparisons", "constant", "courtyard", "decals", "decal_table",
                                          "derivative_map", "height_channel", "height_map", "lighting", "noise",
                                          "noise_family", "normal_map", "object_normal", "parallax", "resolve",
-                                         "triplanar", "triplanar_object", "volume"),
+                                         "triplanar", "triplanar_object", "triplanar_planes", "volume"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(Budget, LooserOnesAreNeverCostlierByTheTable) {
