@@ -387,8 +387,8 @@ struct Scene {
 };
 
 /// Reads a table of decals: CSV, a row of column names, then a row a decal; or .npy, records with fields of these
-/// names. data/scenes/README.md lists the columns. Throws Error with the line (.npy: the row) and column of each mistake, the first
-/// 20 of them. `textures`: how many textures rows may name.
+/// names; data/scenes/README.md lists them. Throws Error with the line (.npy: the row) and column of each mistake, the
+/// first 20 of them. `textures`: how many textures rows may name.
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures);
 
 /// Writes one that load_decals reads back to the same numbers.

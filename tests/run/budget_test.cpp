@@ -62,7 +62,8 @@ TEST_P(Budgets, AreKept) {
                    report.budget->measured.max, report.budget->measured.samples, report.budget->precision);
         for (const std::string& miss : report.budget->misses) fmt::print("  missed by {}\n", miss);
         EXPECT_LE(error, max_error) << report.budget->precision;
-        EXPECT_LE(error, 1.01 * report.budget->measured.max + 6e-6) << "6e-6: what floats of a file round off";
+        EXPECT_LE(error, 1.01 * report.budget->measured.max + 4e-5)
+            << "floats of a file round off 6e-6; normals that cancel in mips lose more";
     }
 }
 
