@@ -24,9 +24,8 @@ TEST(Bake, VolumesCanBeUsed) {
     const Ran run = place.run("run scene.toml -o out");
     EXPECT_EQ(run.code, 0) << run.err;
     const Ran explained = place.run("explain scene.toml");
-    expect_mentions(explained.out,
-                    {"volume \"fog\"", "wr_volume_trilinear", "wr_volume_vector", "wr_shape_wave",
-                     "\"golden\" of values: ", "of vectors: ", "MB on the device"});
+    expect_mentions(explained.out, {"volume \"fog\"", "wr_volume_trilinear", "wr_volume_vector", "wr_shape_wave",
+                                    "\"golden\" of values: ", "of vectors: ", "MB on the device"});
     expect_mentions(place.run("explain --json scene.toml").out, {"\"volumes\"", "\"grid\": \"golden\"", "\"stored\""});
 }
 
