@@ -8,7 +8,8 @@
 namespace wrinkle::test {
 namespace {
 
-const std::string dunes = "[[layer]]\nname = \"dunes\"\nkind = \"noise\"\nscale = 0.05\nfrequency = 20\nfootprint = false\n";
+const std::string dunes =
+    "[[layer]]\nname = \"dunes\"\nkind = \"noise\"\nscale = 0.05\nfrequency = 20\nfootprint = false\n";
 
 TEST(BudgetOption, ReportsWhatWasMeasured) {
     const Workplace place;
