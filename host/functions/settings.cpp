@@ -134,9 +134,9 @@ const char* wanted_text(Setting::Kind kind) {
 std::string range_text(const Setting& setting) {
     const char* const number = setting.whole ? "whole numbers" : "numbers";
     if (setting.most < std::numeric_limits<double>::max())
-        return fmt::format("{} from {:g} to {:g}", number, setting.least, setting.most);
+        return fmt::format("{} from {} to {}", number, setting.least, setting.most);
     if (setting.least > std::numeric_limits<double>::lowest())
-        return fmt::format("{} from {:g}", number, setting.least);
+        return fmt::format("{} from {}", number, setting.least);
     return "";
 }
 
