@@ -135,8 +135,7 @@ std::string range_text(const Setting& setting) {
     const char* const number = setting.whole ? "whole numbers" : "numbers";
     if (setting.most < std::numeric_limits<double>::max())
         return fmt::format("{} from {} to {}", number, setting.least, setting.most);
-    if (setting.least > std::numeric_limits<double>::lowest())
-        return fmt::format("{} from {}", number, setting.least);
+    if (setting.least > std::numeric_limits<double>::lowest()) return fmt::format("{} from {}", number, setting.least);
     return "";
 }
 
