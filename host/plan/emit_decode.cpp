@@ -23,9 +23,11 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const bool depth = geometry.planes.size() == 1;
     std::string text =
         "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated, with what u and v hold there.\n"
-        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y" +
-        neighbour_planes(geometry, object, true) + ", global const float *u, global const float *v)\n{\n";
-    text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.position + "\n";
+        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y,\n"
+        "                                   vec3 along, " +
+        geometry.here + neighbour_planes(geometry, object, true) +
+        ", global const float *u, global const float *v)\n{\n";
+    text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.step + "\n";
     text += fmt::format(
         "    mask valid = (x > 0) & (y > 0) & (x < frame->width) & (y < frame->height){};\n"
         "    vec2 uv = wr_v2(wr_real(wr_load_near(u, at, pixels)), wr_real(wr_load_near(v, at, pixels)));\n"
@@ -50,15 +52,17 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
     const std::string planes = neighbour_planes(geometry, object, false) + ", " + values;
     std::string text = fmt::format(
         "        long here = at.in, row = width;\n"
-        "        wr_neighbour self = {{{}, p, unturned, {}, {}}};\n",
+        "        wr_neighbour self = {{{}, wr_zero3(), unturned, {}, {}}};\n"
+        "        vec3 right = wr_v3(frame->dx), down = wr_v3(frame->dy);\n"
+        "        vec3 left = wr_scale(right, (real)(-1)), up = wr_scale(down, (real)(-1));\n",
         uv, object ? "wr_load(in_object, at.in)" : "0", valid);
     const struct {
         const char *before, *after, *name;
-    } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y", "here + 1, in_pixels, at.x + 1, at.y", "dx"},
-                {"here - row, in_pixels, at.x, at.y - 1", "here + row, in_pixels, at.x, at.y + 1", "dy"}};
+    } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y, left", "here + 1, in_pixels, at.x + 1, at.y, right", "dx"},
+                {"here - row, in_pixels, at.x, at.y - 1, up", "here + row, in_pixels, at.x, at.y + 1, down", "dy"}};
     for (const auto& axis : axes)
-        text += use(axis.name, fmt::format("wr_neighbour_at(frame, {}{})", axis.before, planes),
-                    fmt::format("wr_neighbour_at(frame, {}{})", axis.after, planes));
+        text += use(axis.name, fmt::format("wr_neighbour_at(frame, {}, {}{})", axis.before, geometry.given, planes),
+                    fmt::format("wr_neighbour_at(frame, {}, {}{})", axis.after, geometry.given, planes));
     return text;
 }
 

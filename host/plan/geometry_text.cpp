@@ -26,7 +26,12 @@ GeometryText geometry_text(const Emitter& emitter) {
                                       : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));",
                 parallel              ? ""
                 : available.ray_depth ? "wr_distant_position_pairs(frame, x, y, wr_real(z))"
-                                      : "wr_position_pairs(frame, x, y, wr_real(z))"};
+                                      : "wr_position_pairs(frame, x, y, wr_real(z))",
+                "vec3 ray, real from",
+                parallel ? "wr_v3(frame->forward), wr_real(z)" : "wr_ray(frame, at.x, at.y), wr_real(z)",
+                parallel              ? "vec3 p = wr_fma(ray, wr_real(z) - from, along);"
+                : available.ray_depth ? "vec3 p = wr_distant_step(ray, along, from, wr_real(z));"
+                                      : "vec3 p = wr_planar_step(ray, along, from, wr_real(z));"};
     }
     const std::string file = emitter.scene.gbuffer.file.string(), here = file.empty() ? "" : file + ": ";
     if (wanted == Geometry::automatic && !emitter.has("depth") && !emitter.has("position.x"))
@@ -38,7 +43,10 @@ GeometryText geometry_text(const Emitter& emitter) {
     return {{"position.x", "position.y", "position.z"},
             "wr_valid_position(px, py, pz)",
             "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));",
-            "wr_eye_relative_pairs(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)))"};
+            "wr_eye_relative_pairs(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)))",
+            "vec3 from",
+            "wr_v3(wr_real(px), wr_real(py), wr_real(pz))",
+            "vec3 p = wr_sub(wr_v3(wr_real(px), wr_real(py), wr_real(pz)), from);"};
 }
 
 std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent) {

@@ -10,6 +10,9 @@ struct GeometryText {
     std::string valid;     ///< mask of the planes, as text
     std::string position;  ///< sets p from pixel (x, y) and plane values z or px, py, pz
     std::string pairs;     ///< the same as a wr_pair3; empty where there is none such
+    std::string here;      ///< parameters for what `step` asks of the pixel being evaluated ...
+    std::string given;     ///< ... and the arguments
+    std::string step;      ///< sets p to the way from there to a neighbour, `along` further on the image
 };
 
 GeometryText geometry_text(const Emitter& emitter);

@@ -12,26 +12,29 @@ inline void put(Cases& c, const std::string& name, const Pixel& p) {
     c.in(name + "_object", real{*p.object}), c.in(name + "_valid", p.valid ? 1 : 0);
 }
 
+/// A pixel about `direction` steps of dp from one whose normal is (0, 0, 1), or one that `spoil` 0 to 3 sets apart.
+inline Pixel neighbour_on_plane(Random& random, V dp, real direction, int spoil) {
+    Pixel p{true,
+            3.0f,
+            Random::rounded(normalize(V{0, 0, 1} + random.unit() * 0.3L)),
+            Random::rounded(dp * (direction * random.uniform(0.5L, 1.5L))),
+            {}};
+    if (spoil == 0) p.valid = false;
+    if (spoil == 1) p.object = 4.0f;
+    if (spoil == 2) p.normal = {1, 0, 0};
+    if (spoil == 3) p.position = Random::rounded(dp * (direction * 5));
+    return p;
+}
+
 /// The rule for heights: the next pixel, else the one before; none across a break.
 inline Cases height_neighbour_cases() {
     Cases c{.name = "neighbours of heights"};
     for (unsigned seed = 1; seed <= 600; ++seed) {
         Random random(seed);
         const V dp = random.box(0.1L);
-        const auto make = [&](real direction, int spoil) {
-            Pixel p{true,
-                    3.0f,
-                    Random::rounded(normalize(V{0, 0, 1} + random.unit() * 0.3L)),
-                    Random::rounded(dp * (direction * random.uniform(0.5L, 1.5L))),
-                    {}};
-            if (spoil == 0) p.valid = false;
-            if (spoil == 1) p.object = 4.0f;
-            if (spoil == 2) p.normal = {1, 0, 0};
-            if (spoil == 3) p.position = Random::rounded(dp * (direction * 5));
-            return p;
-        };
         const Pixel here{seed % 50 != 0, 3.0f, {0, 0, 1}, {}, {}};
-        const Pixel before = make(-1, random.below(8)), after = make(1, random.below(8));
+        const Pixel before = neighbour_on_plane(random, dp, -1, random.below(8));
+        const Pixel after = neighbour_on_plane(random, dp, 1, random.below(8));
         const real size = random.magnitude(-6, 6), h = random.uniform(-1, 1) * size;
         const auto height = [&](int spoil) {
             return spoil == 0 ? std::numeric_limits<real>::quiet_NaN()
@@ -44,6 +47,28 @@ inline Cases height_neighbour_cases() {
         put(c, "before", before), put(c, "after", after);
         c.in("before_height", left), c.in("after_height", right), c.in("here_height", mine);
         c.out("difference", want.value_or(0)), c.out("usable", want ? real{1} : real{0});
+    }
+    return c;
+}
+
+/// The rule for normals: both neighbours, one, or none; normals of any length that is not taken for noise.
+inline Cases normal_neighbour_cases() {
+    Cases c{.name = "neighbours of normals"};
+    for (unsigned seed = 1; seed <= 600; ++seed) {
+        Random random(seed);
+        const V dp = random.box(0.1L);
+        const Pixel here{seed % 50 != 0, 3.0f, {0, 0, 1}, {}, {}};
+        Pixel before = neighbour_on_plane(random, dp, -1, random.below(8));
+        Pixel after = neighbour_on_plane(random, dp, 1, random.below(8));
+        c.add("neighbours of normals, seed " + std::to_string(seed), seed % 2 == 0);
+        c.in("dp", dp), c.in("here_valid", here.valid ? 1 : 0);
+        for (const auto& [name, p] : {std::pair{"before", &before}, {"after", &after}}) {
+            Pixel longer = *p;
+            longer.normal = Random::rounded(p->normal * (seed % 2 ? real{1} : random.magnitude(-18, 18)));
+            put(c, name, longer);
+            p->normal = normalize(longer.normal);
+        }
+        c.out("difference", here.valid ? normal_difference(here, before, after, dp) : V{});
     }
     return c;
 }

@@ -136,6 +136,27 @@ TEST(GBuffer, PositionsRelativeToTheEye) {
             0}});
 }
 
+/// Steps to a pixel beside this one: good to their own terms, also where they are a ten thousandth of the distance.
+TEST(GBuffer, StepsToNeighbours) {
+    cases::Cases c{.name = "steps"};
+    for (unsigned seed = 1; seed <= 400; ++seed) {
+        cases::Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const V ray = cases::Random::rounded(V{random.uniform(-1, 1), random.uniform(-1, 1), -1});
+        const V along = random.unit() * random.magnitude(hard ? -6 : -4, -2);
+        const real from = random.magnitude(-2, 5);
+        const real to = static_cast<float>(from * (1 + random.uniform(-1, 1) * random.magnitude(hard ? -7 : -4, -2)));
+        const V next = ray + cases::Random::rounded(along);
+        const real terms = std::abs(to - from) * length(ray) + to * length(along);
+        c.add("steps, seed " + std::to_string(seed), hard, terms);
+        c.in("ray", ray), c.in("along", along), c.in("from", from), c.in("to", to);
+        c.out("planar", next * to - ray * from), c.out("distant", normalize(next) * to - normalize(ray) * from);
+    }
+    check(c, "vec3 a = wr_planar_step(ray, along, from, to), b = wr_distant_step(ray, along, from, to);",
+          {{"planar", xyz("a"), ErrorMeasure::absolute, 3e-7, 3e-7},
+           {"distant", xyz("b"), ErrorMeasure::absolute, 6e-7, 6e-7}});
+}
+
 /// In pairs, positions have about twice the digits.
 TEST(GBuffer, PositionsInPairs) {
     wr_frame frame{};

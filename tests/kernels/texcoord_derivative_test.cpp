@@ -1,4 +1,4 @@
-// surface/texcoord_derivative.clh, surface/height_derivative.clh
+// surface/texcoord_derivative.clh, surface/height_derivative.clh, surface/normal_derivative.clh
 #include "tests/cases/neighbours.h"
 
 #include "tests/kernels/check.h"
@@ -31,6 +31,16 @@ TEST(HeightDerivative, DifferenceOfNeighbours) {
         "real d = wr_height_difference(here, before, after, dp, &usable);",
         {{"difference", {"d"}, ErrorMeasure::absolute, 3e-7, 3e-7},
          {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
+}
+
+TEST(NormalDerivative, DifferenceOfNeighbours) {
+    check(cases::normal_neighbour_cases(),
+          "vec2 none = wr_v2((real)(0), (real)(0));\n"
+          "wr_neighbour here = {none, wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3, here_valid != 0};\n"
+          "wr_neighbour before = {none, beforeP, beforeN, before_object, before_valid != 0};\n"
+          "wr_neighbour after = {none, afterP, afterN, after_object, after_valid != 0};\n"
+          "vec3 d = wr_normal_difference(here, before, after, dp);",
+          {{"difference", xyz("d"), ErrorMeasure::absolute, 3e-7, 3e-7}});
 }
 
 TEST(TexcoordDerivative, LinearMaps) {

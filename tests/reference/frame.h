@@ -156,25 +156,16 @@ public:
         return TangentFrame<T>{tangent / length(n), bitangent / length(n), false};
     }
 
-    /// dn/dx, dn/dy of the normals as they came, made unit: half the difference of the two neighbours on an axis, the
-    /// difference to the one that belongs to the surface, or 0.
+    /// dn/dx, dn/dy of the normals as they came, made unit, from the neighbours.
     ScreenDerivative<T> normal_derivative(std::size_t i, const Decoded<T>& here,
                                           const ScreenDerivative<T>& base) const {
-        const auto axis = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
-            const UvPixel<T> centre = uv_pixel(i, here);
-            std::vector<Vec<T>> steps;
-            if (index + 1 < count)
-                if (const auto next = neighbour(i + stride); same_surface(centre, next, dp))
-                    steps.push_back(next.normal - centre.normal);
-            if (index > 0)
-                if (const auto last = neighbour(i - stride); same_surface(centre, last, dp))
-                    steps.push_back(centre.normal - last.normal);
-            Vec<T> sum;
-            for (const Vec<T>& step : steps) sum = sum + step / T(steps.size());
-            return sum;
+        const auto along = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
+            const UvPixel<T> before = index == 0 ? UvPixel<T>{} : neighbour(i - stride);
+            const UvPixel<T> after = index + 1 == count ? UvPixel<T>{} : neighbour(i + stride);
+            return normal_difference(uv_pixel(i, here), before, after, dp);
         };
-        return {axis(1, i % size_.width, size_.width, base.dp_dx),
-                axis(size_.width, i / size_.width, size_.height, base.dp_dy)};
+        return {along(1, i % size_.width, size_.width, base.dp_dx),
+                along(size_.width, i / size_.width, size_.height, base.dp_dy)};
     }
 
 private:

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "tests/reference/tangent_frame.h"
 
@@ -82,6 +83,18 @@ std::optional<T> height_difference(const UvPixel<T>& here, const UvPixel<T>& bef
     if (same_surface(here, after, dp) && std::isfinite(h_after - h)) return h_after - h;
     if (same_surface(here, before, dp) && std::isfinite(h - h_before)) return h - h_before;
     return std::nullopt;
+}
+
+/// Change of the unit normal along an axis: the mean of the steps to those neighbours that lie on the surface, 0 where
+/// none does.
+template <class T>
+Vec<T> normal_difference(const UvPixel<T>& here, const UvPixel<T>& before, const UvPixel<T>& after, Vec<T> dp) {
+    std::vector<Vec<T>> steps;
+    if (same_surface(here, after, dp)) steps.push_back(after.normal - here.normal);
+    if (same_surface(here, before, dp)) steps.push_back(here.normal - before.normal);
+    Vec<T> sum;
+    for (const Vec<T>& step : steps) sum = sum + step / T(steps.size());
+    return sum;
 }
 
 /// d(u,v)/dx from dp/du and dp/dv: the least squares solution of dp_dx = a dp_du + b dp_dv; nothing where dp_du and
