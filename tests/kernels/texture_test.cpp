@@ -50,7 +50,7 @@ TEST(Texture, SamplesAreTrilinear) {
            {"three", xyz("three"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
 }
 
-TEST(Texture, LodIsFiniteAndWithinThePyramidForAnyDerivative) {
+TEST(Texture, LevelsLieWithinThePyramidForAnyDerivative) {
     Picture picture;
     cases::Cases& c = picture.cases;
     const real values[] = {0, 1e-45L, 1e-20L, 1.0L / 64, 1, 7, 1e10L, 1e20L, 3e38L};
@@ -61,8 +61,26 @@ TEST(Texture, LodIsFiniteAndWithinThePyramidForAnyDerivative) {
             const real fa = static_cast<float>(a), fb = static_cast<float>(b);
             c.out("lod", reference::level_of_detail<real>({{fa, 0}, {0, -fb}}, 21, 11, 5));
         }
-    check(c, "real lod = wr_texture_lod(wr_texture_at(texels, textures, 0), dx, dy);",
-          {{"lod", {"lod"}, ErrorMeasure::absolute, 2e-6, 2e-6}});
+    check(c,
+          "wr_texture t = wr_texture_at(texels, textures, 0);\n"
+          "wr_levels l = wr_texture_levels(t, wr_texture_lod(t, dx, dy));",
+          {{"lod", {"wr_real(l.fine) + l.weight"}, ErrorMeasure::absolute, 2e-6, 2e-6}});
+}
+
+/// A level outside would read foreign memory.
+TEST(Texture, LevelsLieWithinThePyramidForAnyLod) {
+    Picture picture;
+    cases::Cases& c = picture.cases;
+    const real infinite = std::numeric_limits<real>::infinity(), nan = std::numeric_limits<real>::quiet_NaN();
+    const std::pair<real, V2> rows[] = {{nan, {0, 1}},   {-infinite, {0, 1}}, {-1e-20L, {0, 1}}, {0, {0, 1}},
+                                        {0.5L, {0, 1}},  {1, {1, 2}},         {3.75L, {3, 4}},   {4, {4, 4}},
+                                        {4.25L, {4, 4}}, {3e38L, {4, 4}},     {infinite, {4, 4}}};
+    for (const auto& [lod, levels] : rows) {
+        c.add(fmt::format("levels of {:.3g}", double(lod)), true);
+        c.in("lod", lod), c.out("levels", levels);
+    }
+    check(c, "wr_levels l = wr_texture_levels(wr_texture_at(texels, textures, 0), lod);",
+          {{"levels", {"wr_real(l.fine)", "wr_real(l.coarse)"}, ErrorMeasure::absolute, 0, 0}});
 }
 
 /// Coordinates stay within the texture, whatever they are: an index outside would read foreign memory.
