@@ -34,10 +34,14 @@ HASH_HEADER = """\
 // p[i] in the low byte, p[i + 1] in the high one; the permutation twice over.
 constant ushort wr_perlin_hash[512] = {"""
 
-GRADIENT_HEADER = """\
+DIRECTIONS_HEADER = """\
 };
 
-// The gradient of hash p[i]: components -1, 0 or 1, each as the top 9 bits of its float, x first.
+// The 16 gradients: components -1, 0 or 1, each as the top 9 bits of its float, x first."""
+
+GRADIENT_HEADER = """\
+
+// The gradient of hash p[i], by the low four bits of it.
 constant uint wr_perlin_gradient[514] = {"""
 
 TOP_BITS = {0: 0x000, 1: 0x07F, -1: 0x17F}  # sign and exponent of 0.0f, 1.0f and -1.0f
@@ -66,6 +70,9 @@ def print_rows(cells, per_row):
 p = PERMUTATION * 2 + PERMUTATION[:2]
 print(HASH_HEADER)
 print_rows([f"{p[i] | p[i + 1] << 8:5d}" for i in range(512)], 16)
+print(DIRECTIONS_HEADER)
+for h in range(16):
+    print(f"#define WR_PERLIN_G{h:X} 0x{packed(gradient(h)):08x}")
 print(GRADIENT_HEADER)
-print_rows([f"0x{packed(gradient(h)):08x}" for h in p], 8)
+print_rows([f"WR_PERLIN_G{h & 15:X}" for h in p], 8)
 print("};")
