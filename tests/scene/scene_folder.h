@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,6 +14,12 @@
 #include "wrinkle/scene.h"
 
 namespace wrinkle {
+
+inline constexpr double degree = std::numbers::pi / 180;
+
+inline void expect_near(const Vec3& found, const Vec3& expected) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], 1e-15);
+}
 
 /// A folder of its own for each test, with the files that the scenes of these tests name.
 class SceneFolder : public testing::Test {
