@@ -221,15 +221,10 @@ void measure_decals(const Device& device, Size size, bool quick, Run& run) {
         };
         for (std::size_t i = e.first; i < e.first + (e.plain ? 4 : 3); ++i) {
             const bool kernel = i < e.first + 2, whole = i == e.first || i == e.first + 3;
-            Measurement m{.group = "decals",
-                          .name = e.name,
-                          .variant = contenders[i].name,
-                          .lanes = kernel ? device.info.lanes : 0,
-                          .pixels = pixels,
-                          .seconds = contenders[i].seconds,
-                          .bytes = whole ? plan.bytes : 0,
-                          .operations = whole ? operations_of(plan) * e.coverage.per_pixel : 0,
-                          .error = error};
+            Measurement m = measured("decals", e.name, contenders[i], kernel ? device.info.lanes : 0, pixels);
+            m.bytes = whole ? plan.bytes : 0;
+            m.operations = whole ? operations_of(plan) * e.coverage.per_pixel : 0;
+            m.error = error;
             if (i == e.first + 3) {
                 contenders[i].work();
                 m.error = reference.compare(plain);

@@ -111,14 +111,9 @@ void measure_noise(const Device& device, Run& run) {
     race(contenders, run.repetitions);
     for (std::size_t k = 0; k < contenders.size(); ++k) {
         contenders[k].work();
-        Measurement m{.group = "noise",
-                      .name = "perlin_noise",
-                      .variant = contenders[k].name,
-                      .lanes = widths[k],
-                      .pixels = kPixels * kOctaves,
-                      .seconds = contenders[k].seconds,
-                      .bytes = 28.0 / kOctaves,
-                      .unit = "absolute"};
+        Measurement m = measured("noise", "perlin_noise", contenders[k], widths[k], kPixels * kOctaves);
+        m.bytes = 28.0 / kOctaves;
+        m.unit = "absolute";
         const float* got[4];
         for (std::size_t c = 0; c < 4; ++c) got[c] = planes.map<float>(names[c + 3], CL_MAP_READ);
         std::vector<double> errors;

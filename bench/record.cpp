@@ -80,6 +80,16 @@ Bar bar_of(const json& j) {
 
 std::string Measurement::key() const { return fmt::format("{}/{}/{}/{}/{}", group, name, variant, lanes, pixels); }
 
+Measurement measured(const std::string& group, const std::string& name, const Contender& contender, int lanes,
+                     std::size_t pixels) {
+    return {.group = group,
+            .name = name,
+            .variant = contender.name,
+            .lanes = lanes,
+            .pixels = pixels,
+            .seconds = contender.seconds};
+}
+
 json to_json(const Run& run) {
     json list = json::array();
     for (const Measurement& m : run.measurements) list.push_back(measurement_json(m));

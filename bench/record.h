@@ -59,6 +59,11 @@ struct Run {
     std::vector<Bar> bars{};
 };
 
+/// The contender of a race that took part under its variant's name; bytes, errors and what else there is to say of it
+/// are still to be filled in. `lanes` 0: not a kernel.
+Measurement measured(const std::string& group, const std::string& name, const Contender& contender, int lanes,
+                     std::size_t pixels);
+
 nlohmann::json to_json(const Run& run);
 /// Throws Error when the file is no run of this program.
 Run read_run(const std::string& file);

@@ -84,9 +84,9 @@ void measure_storage(const Device& device, Size size, Run& run) {
         in.insert(in.end(), out.begin(), out.end());
         return in;
     };
-    const BenchKernels kernels(device, "storage.cl");
+    const BenchKernels kernels(device, "storage.cl"), whole(device, "memory.cl");
     std::vector<Contender> contenders{
-        {"float", kernels.launcher("wr_from_floats", with_out(floats), pixels)},
+        {"float", whole.launcher("wr_resolve_only", with_out(floats), pixels)},
         {"half", kernels.launcher("wr_from_halves", with_out(halves), pixels)},
         {"octahedral normals",
          kernels.launcher("wr_from_octahedral", with_out({shorts[0], shorts[1], floats[3], floats[4], floats[5]}),
@@ -105,13 +105,8 @@ void measure_storage(const Device& device, Size size, Run& run) {
             const Vector want{n[i][0] - g[i][0], n[i][1] - g[i][1], n[i][2] - g[i][2]};
             errors.push_back(degrees({got[0][i], got[1][i], got[2][i]}, want));
         }
-        Measurement m{.group = "storage",
-                      .name = "resolve_from",
-                      .variant = contenders[c].name,
-                      .lanes = device.info.lanes,
-                      .pixels = pixels,
-                      .seconds = contenders[c].seconds,
-                      .bytes = kBytes[c]};
+        Measurement m = measured("storage", "resolve_from", contenders[c], device.info.lanes, pixels);
+        m.bytes = kBytes[c];
         m.error = statistics(std::move(errors));
         m.hash = hash_of(got[0].data(), pixels * sizeof(float));
         run.measurements.push_back(m);

@@ -157,14 +157,9 @@ void measure_volumes(const Device& device, int size, Run& run) {
         race(contenders, run.repetitions);
         for (std::size_t i = 0; i < contenders.size(); ++i) {
             const bool kernel = i >= 2;
-            Measurement m{.group = "volume",
-                          .name = walk.name,
-                          .variant = contenders[i].name,
-                          .lanes = kernel ? device.info.lanes : 0,
-                          .pixels = kPixels,
-                          .seconds = contenders[i].seconds,
-                          .bytes = i == 0 ? 24.0 : 28.0,
-                          .unit = "relative"};
+            Measurement m = measured("volume", walk.name, contenders[i], kernel ? device.info.lanes : 0, kPixels);
+            m.bytes = i == 0 ? 24 : 28;
+            m.unit = "relative";
             contenders[i].work();
             if (kernel) {
                 std::array<const float*, 3> planes{};

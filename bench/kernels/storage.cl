@@ -1,4 +1,5 @@
-// Resolve from G-buffers stored in fewer bytes: what a byte saved costs in degrees.
+// Resolve from G-buffers stored in fewer bytes: what a byte saved costs in degrees. wr_resolve_only of memory.cl reads
+// floats.
 #define WR_FEW_OUTPUTS
 #include "lanes.clh"
 #include "vec.clh"
@@ -20,18 +21,6 @@ wr_fn void wr_resolve_and_store(vec3 n, vec3 g, global WR_SCALAR *x, global WR_S
     wr_stream(n.x, x, at);
     wr_stream(n.y, y, at);
     wr_stream(n.z, z, at);
-}
-
-kernel void wr_from_floats(global const float *restrict n_x, global const float *restrict n_y,
-                           global const float *restrict n_z, global const float *restrict g_x,
-                           global const float *restrict g_y, global const float *restrict g_z,
-                           global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
-                           global WR_SCALAR *restrict out_z, uint pixels)
-{
-    size_t at = get_global_id(0) * WR_LANES;
-    if (at >= pixels) return;
-    wr_resolve_and_store(wr_v3(wr_load(n_x, at), wr_load(n_y, at), wr_load(n_z, at)),
-                         wr_v3(wr_load(g_x, at), wr_load(g_y, at), wr_load(g_z, at)), out_x, out_y, out_z, at);
 }
 
 kernel void wr_from_halves(global const half *restrict n_x, global const half *restrict n_y,
