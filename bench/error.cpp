@@ -4,27 +4,13 @@
 #include <cmath>
 #include <random>
 
-#include "io/texture_file.h"
 #include "tests/reference/evaluate.h"
+#include "tests/reference/scene_images.h"
 
 namespace wrinkle::bench {
 
-namespace {
-
-/// Every texture a scene names, as the reference takes it.
-reference::Images reference_images(const Scene& scene) {
-    reference::Images images;
-    for_each_texture(scene, [&](const TextureUse& use) {
-        const Image image = load_bump(use);
-        images[use.file.string()] = {image.width, image.height, image.channels, image.texels};
-    });
-    return images;
-}
-
-}  // namespace
-
 ReferenceSample::ReferenceSample(const Scene& scene, const BenchFrame& frame, std::size_t count, std::uint32_t seed) {
-    const reference::Images images = reference_images(scene);
+    const reference::Images images = reference::images_of(scene);
     reference::Planes planes;
     for (const auto& [name, plane] : frame.planes) planes[name] = plane;
     const reference::SceneEvaluator<double> evaluator(scene, frame.frame.size, frame.frame.camera, planes, images);

@@ -96,26 +96,6 @@ BenchFrame Resampler::frame(Size size) const {
     return out;
 }
 
-void for_each_texture(const Scene& scene, const std::function<void(const TextureUse&)>& visit) {
-    for (const Layer& layer : scene.layers) {
-        std::visit(
-            [&](const auto& bump) {
-                if constexpr (requires { visit(bump.texture); })
-                    if (!bump.texture.file.empty()) visit(bump.texture);
-                if constexpr (requires { bump.planes; })
-                    for (const auto& plane : bump.planes)
-                        if (const auto* use = plane ? std::get_if<TextureUse>(&plane->content) : nullptr) visit(*use);
-                if constexpr (requires { bump.textures; })
-                    for (TextureUse use : bump.textures) {
-                        use.unit = SlopeUnit::metre;
-                        visit(use);
-                    }
-            },
-            layer.bump);
-        if (layer.mask.texture) visit({.file = layer.mask.texture->file});
-    }
-}
-
 Scene without_lighting(Scene scene, const Frame& frame) {
     scene.lighting.relight = Relight::off;
     scene.lighting.lights.clear();

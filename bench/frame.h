@@ -1,13 +1,11 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "io/texture_file.h"
 #include "run/plane_buffers.h"
 #include "wrinkle/passes.h"
 
@@ -43,9 +41,6 @@ private:
     Size size_;
     std::map<std::string, std::vector<float>> planes_;
 };
-
-/// Calls `visit` with every texture of a scene.
-void for_each_texture(const Scene& scene, const std::function<void(const TextureUse&)>& visit);
 
 /// The scene as all contenders take it: no lighting, Cryptomatte names as hashes.
 Scene without_lighting(Scene scene, const Frame& frame);

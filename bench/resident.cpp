@@ -5,6 +5,7 @@
 #include "baseline/baseline.h"
 #include "io/texture_file.h"
 #include "run/pass_impl.h"
+#include "tests/reference/scene_images.h"
 
 namespace wrinkle::bench {
 
@@ -50,7 +51,7 @@ Measurement scene_measurement(const std::string& group, const std::string& name,
 
 std::map<std::filesystem::path, baseline::Image> baseline_images(const Scene& scene) {
     std::map<std::filesystem::path, baseline::Image> images;
-    for_each_texture(scene, [&](const TextureUse& use) {
+    reference::for_each_texture(scene, [&](const TextureUse& use) {
         Image image = load_bump(use);
         images[use.file] = {image.width, image.height, image.channels, std::move(image.texels)};
     });

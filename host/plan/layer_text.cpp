@@ -46,6 +46,15 @@ std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, cons
     return text;
 }
 
+std::string LayerText::scale_dependent() {
+    constexpr double kScaleDependent = 85;
+    section.operations += kScaleDependent;
+    return fmt::format(
+        "        vec3 bump = wr_surface_gradient_scale_dependent(n, dp_dx, dp_dy, c.dx, c.dy, slope);\n"
+        "        g = wr_fma(bump, m * {}, g);\n",
+        strength());
+}
+
 std::string LayerText::volume(const std::string& gradient) {
     const char* sum = layer.project ? "dh_dp" : "g";
     section.reads.insert(sum);

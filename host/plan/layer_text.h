@@ -20,6 +20,8 @@ struct LayerText {
     std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
+    /// Adds what `slope`, dh/ds and dh/dt in metres, does to the surface that the coordinates `c` lie on.
+    std::string scale_dependent();
     /// Adds a volume gradient, to be projected onto the surface unless the layer says otherwise.
     std::string volume(const std::string& gradient);
 };

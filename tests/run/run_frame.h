@@ -10,8 +10,8 @@
 
 #include "io/camera_file.h"
 #include "io/gbuffer_reader.h"
-#include "io/texture_file.h"
 #include "tests/reference/evaluate.h"
+#include "tests/reference/scene_images.h"
 #include "tests/reference/test_frame.h"
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
@@ -96,33 +96,6 @@ inline Scene data_scene(const std::string& name) {
     return scene;
 }
 
-/// Every texture that a scene names.
-inline reference::Images images_of(const Scene& scene) {
-    reference::Images images;
-    const auto add = [&](const TextureUse& use) {
-        Image image = load_bump(use);
-        images[use.file.string()] = {image.width, image.height, image.channels, std::move(image.texels)};
-    };
-    for (const Layer& layer : scene.layers) {
-        std::visit(
-            [&](const auto& bump) {
-                if constexpr (requires { bump.texture; })
-                    if (!bump.texture.file.empty()) add(bump.texture);
-                if constexpr (requires { bump.planes; })
-                    for (const auto& plane : bump.planes)
-                        if (const auto* use = plane ? std::get_if<TextureUse>(&plane->content) : nullptr) add(*use);
-                if constexpr (requires { bump.textures; })
-                    for (TextureUse use : bump.textures) {
-                        use.unit = SlopeUnit::metre;
-                        add(use);
-                    }
-            },
-            layer.bump);
-        if (layer.mask.texture) add({.file = layer.mask.texture->file});
-    }
-    return images;
-}
-
 /// Runs a pass on host memory: every output it has.
 template <class T = float>
 std::map<std::string, std::vector<T>> run(Pass& pass, const HostFrame& frame) {
@@ -184,7 +157,7 @@ struct Truth {
     Truth(const HostFrame& frame, const Scene& given) {
         Scene scene = given;
         if (frame.frame.ray_depth) scene.gbuffer.depth = DepthKind::ray;
-        const reference::Images images = images_of(scene);
+        const reference::Images images = reference::images_of(scene);
         const reference::SceneEvaluator<double> evaluator(scene, frame.frame.size, frame.frame.camera, frame.planes(),
                                                           images);
         for (std::size_t i = 0; i < frame.count(); ++i) {
