@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/eval_outputs.h"
+#include "cli/options.h"
 #include "functions/reference.h"
 #include "wrinkle/error.h"
 
@@ -93,8 +94,7 @@ void add_eval(CLI::App& app) {
         ->check(CLI::IsMember({"fast", "standard", "exact", "double"}))
         ->type_name("PRECISION")
         ->capture_default_str();
-    command->add_option("--device", arguments->device, "number, type (cpu, gpu) or part of a name")
-        ->type_name("DEVICE");
+    add_device_option(*command, arguments->device);
     command->footer(
         "CSV: the first row names the columns: n.x, n.y, n.z for a parameter n. All columns of the input pass "
         "through,\n"

@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/explain_budget.h"
 #include "cli/frame_list.h"
+#include "cli/options.h"
 #include "device/kernel_sources.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
@@ -21,7 +23,9 @@ namespace {
 
 struct ExplainArguments {
     std::filesystem::path scene;
+    std::string device;
     std::optional<int> frame;
+    std::optional<double> max_error;
     bool full = false, no_source = false, json = false;
 };
 
@@ -84,8 +88,20 @@ nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
     return all;
 }
 
+/// The scene's budget, if it has one, on the device that would keep it.
+std::optional<Budget> budget_of(const Scene& scene, const Frame& frame, const std::string& device) {
+    if (!scene.budget.max_error) return std::nullopt;
+    return Budget(scene, camera_kind(frame.camera, frame.size), costs_of(Device::open(device).info));
+}
+
+PlanOptions options_of(const std::optional<Budget>& budget) {
+    PlanOptions options;
+    if (budget && !budget->choice().fp64) options.precision = budget->choice().precision;
+    return options;
+}
+
 void print_json(const Plan& plan, double operations, const std::optional<BinReport>& bins,
-                const std::vector<VolumeReport>& volumes) {
+                const std::vector<VolumeReport>& volumes, const std::optional<Budget>& budget) {
     nlohmann::json lists;
     if (bins)
         lists = {{"rows", plan.projectors},     {"bytes", bins->bytes},     {"tiles", bins->tiles},
@@ -104,23 +120,28 @@ void print_json(const Plan& plan, double operations, const std::optional<BinRepo
                                       {"sections", sections},
                                       {"bins", lists},
                                       {"volumes", volumes_json(volumes)},
+                                      {"budget", budget ? choice_json(*budget) : nlohmann::json()},
                                       {"source", plan.source}}
                            .dump(2));
 }
 
 void explain(const ExplainArguments& arguments) {
-    const Scene scene = load_scene(arguments.scene);
+    Scene scene = load_scene(arguments.scene);
+    if (arguments.max_error) scene.budget.max_error = arguments.max_error;
+    if (!arguments.device.empty() && !scene.budget.max_error)
+        throw Error("--device says whose table an error budget goes by; give --max-error, or max_error in the scene");
     check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     const Frame frame = describe_frame(scene, number);
     warn_of_camera(scene, number);
-    const Plan plan = plan_for(scene, frame, {});
+    const std::optional<Budget> budget = budget_of(scene, frame, arguments.device);
+    const Plan plan = plan_for(scene, frame, options_of(budget));
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
     const std::optional<BinReport> bins = bins_of(scene, frame, plan, number);
     const std::vector<VolumeReport> volumes = volumes_of(plan);
     if (arguments.json) {
-        print_json(plan, operations, bins, volumes);
+        print_json(plan, operations, bins, volumes, budget);
         return;
     }
     fmt::print("{}: {} x {} pixels\n\n", scene.file.string(), frame.size.width, frame.size.height);
@@ -133,6 +154,7 @@ void explain(const ExplainArguments& arguments) {
                    join(section.planes));
     fmt::print("\nexpected per pixel, where nothing is skipped: {:.0f} bytes of planes, {:.0f} operations\n",
                plan.bytes, operations);
+    if (budget) print_choice(*budget);
     if (bins) print_bins(plan, *bins);
     print_volumes(volumes);
     if (arguments.no_source) return;
@@ -147,6 +169,8 @@ void add_explain(CLI::App& app) {
         app.add_subcommand("explain", "Print a scene's plan: stages, channels, expected cost, and the kernel source");
     command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
     command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
+    add_max_error_option(*command, arguments->max_error, "explains what a run under that budget starts with");
+    add_device_option(*command, arguments->device);
     command->add_flag("--full", arguments->full, "print the source with every concept file in it");
     command->add_flag("--no-source", arguments->no_source, "print the plan only");
     command->add_flag("--json", arguments->json, "print as JSON");

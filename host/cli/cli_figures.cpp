@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/options.h"
 #include "run/draw_figure.h"
 #include "wrinkle/error.h"
 
@@ -42,10 +43,7 @@ void add_figures(CLI::App& app) {
     command->add_option("-o,--output", arguments->directory, "folder for the pictures, made if missing")
         ->type_name("DIR")
         ->capture_default_str();
-    command
-        ->add_option("--device", arguments->device,
-                     "number, type (cpu, gpu) or part of a name; see \"wrinkle devices\"")
-        ->type_name("DEVICE");
+    add_device_option(*command, arguments->device);
     command->callback([arguments] { figures(*arguments); });
 }
 

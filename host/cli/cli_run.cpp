@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/frame_list.h"
+#include "cli/options.h"
 #include "io/threads.h"
 #include "run/render.h"
 #include "wrinkle/error.h"
@@ -150,20 +151,13 @@ void add_run(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--frames", arguments->frames, "frame numbers: 7, 1-10, 1-100x5, or several with commas")
         ->type_name("LIST");
-    command
-        ->add_option("--device", arguments->device,
-                     "number, type (cpu, gpu) or part of a name; see \"wrinkle devices\"")
-        ->type_name("DEVICE");
+    add_device_option(*command, arguments->device);
     command->add_option("--threads", arguments->threads, "threads for files and for CPU kernels; 0: all cores")
         ->check(CLI::Range(0, 1024));
     command->add_option("--repeat", arguments->repeat, "run the kernels N times and report the median, to time them")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));
-    command
-        ->add_option("--max-error", arguments->max_error,
-                     "largest error of a normal, degrees: computes no more exactly than that takes, and measures it")
-        ->type_name("DEGREES")
-        ->check(CLI::Range(std::numeric_limits<double>::min(), 180.0));
+    add_max_error_option(*command, arguments->max_error, "computes no more exactly than that takes, and measures it");
     command->add_option("--precision", arguments->precision, "of everything: standard (what is usual), exact or double")
         ->type_name("NAME")
         ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/options.h"
 #include "run/tune.h"
 #include "wrinkle/error.h"
 
@@ -66,10 +67,7 @@ void add_tune(CLI::App& app) {
         "Measure what every variant of the scenes' layers costs and errs by on this device: the table that a scene's "
         "max_error is kept by");
     command->add_option("SCENE", arguments->scenes, "scene files (TOML), such as data/scenes/*.toml")->required();
-    command
-        ->add_option("--device", arguments->device,
-                     "number, type (cpu, gpu) or part of a name; see \"wrinkle devices\"")
-        ->type_name("DEVICE");
+    add_device_option(*command, arguments->device);
     command->add_option("-o,--output", arguments->file, "the table; else precision.json in the cache folder")
         ->type_name("FILE");
     command->add_option("--repeat", arguments->options.repeat, "runs of each kernel; their median counts")

@@ -24,7 +24,7 @@ double largest(const ErrorStats& stats) {
 }  // namespace
 
 Budget::Budget(const Scene& scene, CameraKind camera, const DeviceCosts& costs)
-    : scene_(scene), all_(choosables(scene, camera, costs)), allowed_(scene.budget.max_error.value()) {
+    : scene_(scene), all_(wrinkle::choosables(scene, camera, costs)), allowed_(scene.budget.max_error.value()) {
     report_.max_error = allowed_;
     report_.costs = fmt::format("{} ({})", costs.device, costs.device_class);
     report_.seed = scene.budget.seed;

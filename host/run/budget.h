@@ -35,6 +35,9 @@ public:
 
     const BudgetReport& report() const { return report_; }
 
+    /// What of the scene has variants.
+    const std::vector<Choosable>& choosables() const { return all_; }
+
 private:
     void take(const PrecisionChoice& choice);
 

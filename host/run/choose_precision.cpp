@@ -19,16 +19,15 @@ std::vector<Choosable::Rung> worthwhile(std::vector<Choosable::Rung> rungs) {
 }
 
 Choosable choosable(const std::vector<Precision>& ladder, const CostKind& kind, const DeviceCosts& costs) {
-    Choosable out;
-    const auto cost = [&](Precision precision) {
-        VariantCost found = costs.find(kind.name, precision).value_or(VariantCost{});
-        found.ns *= kind.units;
-        return found;
+    const auto rung = [&](Precision precision) {
+        const std::optional<VariantCost> found = costs.find(kind.name, precision);
+        VariantCost cost = found.value_or(VariantCost{});
+        cost.ns *= kind.units;
+        return Choosable::Rung{precision, cost, found.has_value()};
     };
-    for (const Precision precision : ladder) out.ladder.push_back({precision, cost(precision)});
-    out.ladder = worthwhile(std::move(out.ladder));
-    out.ns_in_double = cost(Precision::fp64).ns;
-    return out;
+    std::vector<Choosable::Rung> rungs;
+    for (const Precision precision : ladder) rungs.push_back(rung(precision));
+    return {.name = {}, .ladder = worthwhile(std::move(rungs)), .in_double = rung(Precision::fp64)};
 }
 
 Precision& precision_of(PrecisionChoice& choice, const Choosable& what) {
@@ -45,7 +44,7 @@ std::size_t rung_of(const Choosable& what, PrecisionChoice choice) {
 void expect(PrecisionChoice& choice, const std::vector<Choosable>& all) {
     choice.ns = choice.error = 0;
     for (const Choosable& what : all) {
-        const VariantCost& cost = what.ladder[rung_of(what, choice)].cost;
+        const VariantCost& cost = variant_in(choice, what).cost;
         choice.ns += cost.ns, choice.error += cost.max;
     }
 }
@@ -64,9 +63,13 @@ std::vector<Choosable> choosables(const Scene& scene, CameraKind camera, const D
     return all;
 }
 
+const Choosable::Rung& variant_in(const PrecisionChoice& choice, const Choosable& what) {
+    return choice.fp64 ? what.in_double : what.ladder[rung_of(what, choice)];
+}
+
 PrecisionChoice all_in_double(const std::vector<Choosable>& all) {
     PrecisionChoice choice{.fp64 = true};
-    for (const Choosable& what : all) choice.ns += what.ns_in_double;
+    for (const Choosable& what : all) choice.ns += what.in_double.cost.ns;
     return choice;
 }
 

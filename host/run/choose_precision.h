@@ -23,9 +23,10 @@ struct Choosable {
     struct Rung {
         Precision precision;
         VariantCost cost;
+        bool measured;  ///< the table knows it
     };
     std::vector<Rung> ladder;  ///< costlier and more accurate from rung to rung
-    double ns_in_double = 0;
+    Rung in_double;
 };
 
 /// What of the scene has variants, with costs of all its units; variants that cost more than a more accurate one are
@@ -36,6 +37,9 @@ std::vector<Choosable> choosables(const Scene& scene, CameraKind camera, const D
 /// accuracy for its time; everything in double where nothing less will do or costs no less. A larger `max_error` never
 /// gives a costlier choice.
 PrecisionChoice choose_precision(const std::vector<Choosable>& all, std::size_t layers, double max_error);
+
+/// The variant of a thing that a choice takes.
+const Choosable::Rung& variant_in(const PrecisionChoice& choice, const Choosable& what);
 
 /// The same choice with one thing a rung higher; nothing where it is on its last.
 std::optional<PrecisionChoice> raised(const std::vector<Choosable>& all, const PrecisionChoice& from,

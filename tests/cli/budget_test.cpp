@@ -32,6 +32,63 @@ TEST(BudgetOption, ReportsWhatWasMeasured) {
         nlohmann::json::parse(place.run("run scene.toml --json --max-error 1").out).at("budget").at("misses").empty());
 }
 
+/// A table of costs of this machine's device, with round numbers for the dunes.
+void write_costs(const Workplace& place) {
+    const auto device = nlohmann::json::parse(place.run("devices --json").out).at(0);
+    const int lanes = device.at("lanes");
+    const auto cost = [](double ns, double max) { return nlohmann::json{{"ns", ns}, {"p99", 0}, {"max", max}}; };
+    const nlohmann::json kinds{
+        {"geometry", {{"standard", cost(2, 0)}, {"exact", cost(3, 0)}, {"double", cost(8, 0)}}},
+        {"noise perlin", {{"standard", cost(10, 0.5)}, {"exact", cost(20, 0.25)}, {"double", cost(90, 1e-6)}}}};
+    const nlohmann::json table{
+        {"class", fmt::format("{}, {} lane{}", device.at("type").get<std::string>(), lanes, lanes == 1 ? "" : "s")},
+        {"device", device.at("name")},
+        {"driver", device.at("driver")},
+        {"kinds", kinds}};
+    write_text(place / "cache/precision.json", nlohmann::json{{"devices", {table}}}.dump());
+}
+
+TEST(BudgetOption, ExplainTellsWhatARunStartsWith) {
+    const Workplace place;
+    const std::string cache = "WRINKLE_CACHE_DIR='" + (place / "cache").string() + "'";
+    fs::create_directories(place / "cache");
+    write_costs(place);
+    place.write_scene(dunes);
+    const auto explained = [&](const std::string& options) {
+        const Ran ran = place.run("explain scene.toml --json " + options, cache);
+        return ran.code == 0 ? nlohmann::json::parse(ran.out) : nlohmann::json(ran.err);
+    };
+    const auto standard = explained("");
+    EXPECT_TRUE(standard.at("budget").is_null());
+    expect_failed(place.run("explain scene.toml --device cpu", cache), {"--device", "max_error"});
+
+    place.write_scene("[budget]\nmax_error = 0.75\n" + dunes);
+    const auto loose = explained("");
+    EXPECT_EQ(loose.at("source"), standard.at("source"));
+    EXPECT_EQ(loose.at("budget").at("max_error"), 0.75);
+    EXPECT_EQ(loose.at("budget").at("expected"), (nlohmann::json{{"ns_per_pixel", 12.0}, {"degrees", 0.5}}));
+    const auto tight = explained("--max-error 0.3");
+    EXPECT_NE(tight.at("source"), standard.at("source"));
+    EXPECT_EQ(tight.at("budget").at("expected"), (nlohmann::json{{"ns_per_pixel", 22.0}, {"degrees", 0.25}}));
+    const nlohmann::json geometry{
+        {"name", "the geometry"}, {"variant", "standard"}, {"ns_per_pixel", 2.0}, {"degrees", 0.0}};
+    const nlohmann::json exact{
+        {"name", "layer \"dunes\""}, {"variant", "exact"}, {"ns_per_pixel", 20.0}, {"degrees", 0.25}};
+    EXPECT_EQ(tight.at("budget").at("variants"), nlohmann::json::array({geometry, exact}));
+    const auto tightest = explained("--max-error 0.1").at("budget");
+    EXPECT_EQ(tightest.at("precision"), "everything in double");
+    EXPECT_EQ(tightest.at("variants").at(1).at("variant"), "double");
+    EXPECT_EQ(tightest.at("expected").at("ns_per_pixel"), 98.0);
+
+    const auto ran = nlohmann::json::parse(place.run("run scene.toml --max-error 0.3 --json", cache).out).at("budget");
+    for (const char* key : {"max_error", "precision", "costs", "expected"})
+        EXPECT_EQ(ran.at(key), tight.at("budget").at(key)) << key;
+    const Ran text = place.run("explain scene.toml --no-source --max-error 0.3", cache);
+    EXPECT_TRUE(std::regex_search(text.out, std::regex(R"(layer "dunes" +exact +20\.00  2\.5e-01)"))) << text.out;
+    EXPECT_TRUE(std::regex_search(text.out, std::regex(R"(together +22\.00  2\.5e-01)"))) << text.out;
+    expect_failed(place.run("explain scene.toml", "OCL_ICD_VENDORS=/nonexistent"), {"OpenCL", "pocl-opencl-icd"});
+}
+
 TEST(BudgetOption, PrecisionsDifferAndConverge) {
     const Workplace place;
     place.write_scene(dunes);
