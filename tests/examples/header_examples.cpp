@@ -5,12 +5,18 @@
 #include <vector>
 
 #include "wrinkle/camera.h"
+#include "wrinkle/decal_layers.h"
 #include "wrinkle/device.h"
 #include "wrinkle/error.h"
+#include "wrinkle/frame_source.h"
 #include "wrinkle/functions.h"
 #include "wrinkle/gbuffer.h"
+#include "wrinkle/layers.h"
+#include "wrinkle/lighting.h"
+#include "wrinkle/noise_layer.h"
 #include "wrinkle/passes.h"
 #include "wrinkle/scene.h"
+#include "wrinkle/textures.h"
 
 TEST(HeaderExample, Error) {
     testing::internal::CaptureStderr();
@@ -55,6 +61,37 @@ TEST(HeaderExample, Functions) {
     EXPECT_NEAR(z[0], 0.8, 1e-6);
 }
 
+TEST(HeaderExample, Textures) {
+    const wrinkle::TextureUse bricks{.file = "bricks.png", .content = wrinkle::Content::normal, .y_down = true};
+    const wrinkle::UvMapping four_times{.scale = {4, 4}};
+    const wrinkle::NormalMapLayer wall{.texture = bricks, .uv = four_times};
+    EXPECT_TRUE(wall.texture.y_down && wall.uv.scale[1] == 4);
+}
+
+TEST(HeaderExample, Decals) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(testing::TempDir());
+    const std::vector<wrinkle::Projector> rows(3, {.center = {0, 0, 1}, .half_size = {0.2, 0.2, 0.5}});
+    wrinkle::save_decals("three.csv", rows);
+    wrinkle::DecalsLayer seals;
+    seals.textures = {{.file = "seal.png", .wrap = wrinkle::Wrap::clamp}};
+    seals.rows = std::make_shared<const std::vector<wrinkle::Projector>>(wrinkle::load_decals("three.csv", 1));
+    EXPECT_EQ(seals.rows->at(2).half_size, rows[2].half_size);
+    std::filesystem::remove("three.csv");
+    std::filesystem::current_path(before);
+}
+
+TEST(HeaderExample, FrameSourceAndLighting) {
+    wrinkle::Scene scene;
+    scene.gbuffer.file = "shot.####.exr";
+    scene.gbuffer.roles["uv"] = "UVMap";
+    scene.camera.look_at = {.eye = {0, -5, 2}, .target = {0, 0, 0}, .fov_y = 0.9};
+    EXPECT_EQ(scene.camera.look_at->up, (wrinkle::Vec3{0, 0, 1}));
+    scene.lighting.relight = wrinkle::Relight::lit;
+    scene.lighting.lights = {{.kind = wrinkle::LightKind::sun, .direction = {0.6, 0, -0.8}}};
+    EXPECT_EQ(scene.lighting.lights.at(0).intensity, 1);
+}
+
 TEST(HeaderExample, SceneAndPasses) {
     wrinkle::Layer grain;
     grain.name = "grain";
@@ -63,6 +100,7 @@ TEST(HeaderExample, SceneAndPasses) {
     grain.mask.object = 7;  // only on this object
     wrinkle::Scene scene;
     scene.layers = {grain};
+    scene.output.half = true;  // 16-bit files
 
     const wrinkle::Size size{40, 30};
     const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 4.0 / 3);
