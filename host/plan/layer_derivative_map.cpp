@@ -15,7 +15,7 @@ std::string emit(LayerText& at, const DerivativeMapLayer& l) {
                             l.texture.unit == SlopeUnit::texel ? " / wr_texels_across(t)" : "");
         at.section.operations += kTextureMetres;
     }
-    return text + at.scale_dependent();
+    return text + at.slopes("scale_dependent", "c.dx, c.dy, slope");
 }
 
 }  // namespace wrinkle
