@@ -9,7 +9,7 @@ namespace wrinkle {
 
 namespace {
 
-constexpr double kFrame = 70, kScaleDependent = 85, kCombine = 90, kTaps = 240;  // expected operations
+constexpr double kFrame = 70, kCombine = 90, kTaps = 240;  // expected operations
 
 const char* combine_function(Combine combine) {
     switch (combine) {
@@ -46,14 +46,10 @@ bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
 
 std::string emit_taps(LayerText& at, const HeightMapLayer& l) {
     if (l.texture.wrap == Wrap::clamp) throw Error(at.who + ": upscale = \"taps\" repeats; wrap must not be \"clamp\"");
-    at.section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
-    at.section.writes.insert("g");
-    at.section.operations += kTaps + kScaleDependent;
+    at.section.operations += kTaps;
     return at.located(l.texture, TexelKind::height, l.uv) +
-           fmt::format(
-               "        vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n"
-               "        g = wr_fma(wr_surface_gradient_from_screen_slope(n, dp_dx, dp_dy, dh), m * {}, g);\n",
-               at.lod("c.dx", "c.dy"), at.strength());
+           fmt::format("        vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n", at.lod("c.dx", "c.dy")) +
+           at.slopes("from_screen_slope", "dh");
 }
 
 }  // namespace
@@ -68,7 +64,7 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
         text += "        m = vertex_tb_valid ? m : (real)(0);\n";
         at.section.operations += 8;
     } else {
-        text += "        wr_frame_tb f = wr_tangent_frame(n, dp_dx, dp_dy, c.dx, c.dy);\n";
+        text += fmt::format("        wr_frame_tb f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
         at.section.operations += kFrame;
     }
     const char* frame = planes ? "vertex_tb" : "f";
@@ -87,11 +83,7 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
 std::string emit(LayerText& at, const HeightMapLayer& l) {
     if (l.texture.upscale == Upscale::taps) return emit_taps(at, l);
     std::string text = at.textured(l.texture, l.uv);
-    at.section.operations += kScaleDependent;
-    return text + fmt::format(
-                      "        vec3 bump = wr_surface_gradient_scale_dependent(n, dp_dx, dp_dy, c.dx, c.dy, slope);\n"
-                      "        g = wr_fma(bump, m * {}, g);\n",
-                      at.strength());
+    return text + at.slopes("scale_dependent", "c.dx, c.dy, slope");
 }
 
 }  // namespace wrinkle

@@ -25,6 +25,8 @@ std::string sample_function(const TextureUse& use) {
 
 std::string LayerText::strength() const { return literal(layer.blend == Blend::subtract ? -layer.scale : layer.scale); }
 
+const char* LayerText::exactly() const { return emitter.precision(layer) == Precision::exact ? "_exact" : ""; }
+
 std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
     return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(real)(0)";
 }
@@ -44,6 +46,17 @@ std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, cons
     section.writes.insert("g");
     section.operations += sample_cost(use);
     return text;
+}
+
+std::string LayerText::slopes(const std::string& function, const std::string& arguments) {
+    constexpr double kSlopes = 60, kExactSlopes = 150;
+    section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
+    section.writes.insert("g");
+    section.operations += *exactly() ? kExactSlopes : kSlopes;
+    return fmt::format(
+        "        vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
+        "        g = wr_fma(bump, m * {}, g);\n",
+        function, exactly(), arguments, strength());
 }
 
 std::string LayerText::volume(const std::string& gradient) {

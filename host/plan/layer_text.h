@@ -14,12 +14,16 @@ struct LayerText {
 
     /// The layer's scale, with the sign of its blend.
     std::string strength() const;
+    /// What ends the name of a kernel function that has an exact variant.
+    const char* exactly() const;
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
     /// Declares coordinates `c`, texture `t` and its sample, for a source that samples one texture over a UV mapping.
     std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
+    /// Adds the surface gradient of a height, of the kernel function of that name and its arguments after dp_dx, dp_dy.
+    std::string slopes(const std::string& function, const std::string& arguments);
     /// Adds a volume gradient, to be projected onto the surface unless the layer says otherwise.
     std::string volume(const std::string& gradient);
 };

@@ -18,7 +18,11 @@ bool moved(const Scene& scene, std::size_t index) {
 }  // namespace
 
 std::vector<Precision> layer_precisions(const Scene& scene, std::size_t index, CameraKind camera) {
-    const auto* noise = std::get_if<NoiseLayer>(&scene.layers[index].bump);
+    const auto& bump = scene.layers[index].bump;
+    if (std::holds_alternative<NormalMapLayer>(bump) || std::holds_alternative<HeightMapLayer>(bump) ||
+        std::holds_alternative<HeightChannelLayer>(bump) || std::holds_alternative<DerivativeMapLayer>(bump))
+        return {standard, exact};
+    const auto* noise = std::get_if<NoiseLayer>(&bump);
     if (noise == nullptr || noise->gradient != NoiseGradient::analytic || camera == CameraKind::parallel ||
         moved(scene, index))
         return {standard};

@@ -23,6 +23,13 @@ inline void add_inputs(Cases& c, const SurfaceDerivatives& d) {
     c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dst_dx", d.st.dx), c.in("dst_dy", d.st.dy);
 }
 
+/// 1 / cos between n and the plane of dp_dx and dp_dy: what variants without compensation lose to a normal that does
+/// not fit them.
+inline real misfit(const SurfaceDerivatives& d) {
+    const V normal = cross(d.dp_dx, d.dp_dy);
+    return length(normal) * length(d.n) / std::abs(dot(normal, d.n));
+}
+
 /// A footprint of any size, stretched up to 1e6 : 1 as at grazing angles, texture coordinates of any scale and sheared,
 /// mirrored or nearly degenerate.
 inline SurfaceDerivatives random_derivatives(Random& random) {

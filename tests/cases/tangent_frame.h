@@ -11,6 +11,10 @@ inline Cases tangent_frame_cases() {
         add_inputs(c, d);
         const auto f = reference::tangent_frame(normalize(d.n), d.dp_dx, d.dp_dy, d.st);
         c.out("T", f.tangent), c.out("B", f.bitangent);
+        const real sign = determinant(d.st) < 0 ? -1 : 1;
+        const V along = (d.dp_dx * d.st.dy.y - d.dp_dy * d.st.dx.y) * sign, n = normalize(d.n);
+        const real kept = length(along - n * dot(n, along));
+        if (kept > 0) c.allowance.back() = length(along) / kept;
     };
     const GoldenTable table = reference::golden("listing04_genbasis_tb");
     for (std::size_t i = 0; i < table.size(); ++i) {
