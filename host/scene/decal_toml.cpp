@@ -72,11 +72,12 @@ public:
         const auto line_of = [&](const toml::source_region& at) { return at.begin.line + first_line - 1; };
         reader_.begin_row(line_of(decal.source()));
         for (const auto& [key, value] : decal) {
-            reader_.go_to(line_of(key.source()));
+            line_ = line_of(key.source());
+            reader_.go_to(line_);
             if (const auto columns = keys_.find(key.str()); columns != keys_.end())
                 read_key(columns->second, value);
             else
-                reader_.complain(line_of(key.source()), unknown_key(key.str()));
+                reader_.complain(line_, unknown_key(key.str()));
         }
         if (const char* required = decal_columns().front().key; !decal.contains(required))
             reader_.complain(line_of(decal.source()), fmt::format("needs the key {}", quote(required)));
@@ -93,11 +94,13 @@ private:
         }
         const toml::array* array = value.as_array();
         if (array == nullptr || array->size() != columns.size())
-            return reader_.refuse(first, describe(value), fmt::format("must be {} numbers in []", columns.size()));
+            return reader_.complain(line_, fmt::format("{} is {}; it must be {} numbers in []", quote(first.key),
+                                                       describe(value), columns.size()));
         for (std::size_t i = 0; i < columns.size(); ++i) read_value(reader_, columns[i], (*array)[i]);
     }
 
     DecalReader& reader_;
+    std::uint32_t line_ = 0;  ///< of the key being read
     std::map<std::string_view, Columns> keys_ = columns_by_key();
 };
 
@@ -179,6 +182,7 @@ std::vector<Projector> load_decal_toml(const std::filesystem::path& file, std::s
 }
 
 std::string decal_toml(std::span<const DecalColumn* const> columns, const std::vector<Projector>& rows) {
+    const std::map<std::string_view, Columns> keys = columns_by_key();
     std::string text;
     for (const Projector& row : rows) {
         text += text.empty() ? "[[decal]]\n" : "\n[[decal]]\n";
@@ -187,8 +191,7 @@ std::string decal_toml(std::span<const DecalColumn* const> columns, const std::v
             if (column->key == last) continue;
             last = column->key;
             std::vector<std::string> values;
-            for (const DecalColumn& each : decal_columns())
-                if (each.key == last) values.push_back(toml_value(each, row));
+            for (const DecalColumn& each : keys.at(last)) values.push_back(toml_value(each, row));
             if (column->size > 0)
                 text += fmt::format("{} = [{}]\n", last, fmt::join(values, ", "));
             else if (!values.front().empty())

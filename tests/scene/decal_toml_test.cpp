@@ -51,7 +51,7 @@ TEST_F(DecalToml, TakesOneNumberForEveryElement) {
     EXPECT_EQ(rows[0].half_size, (Vec3{2, 2, 2}));
     EXPECT_EQ(rows[0].falloff, (Vec3{0.25, 0.25, 0.25}));
     EXPECT_EQ(rows[0].repeat, (std::array<double, 2>{3, 3}));
-    expect_key_refused("axis_x = 1\n", {"decals.toml:6: ", "\"axis_x\" is 1; it must be 3 numbers in []"});
+    expect_key_refused("axis_x = 1\n", {"decals.toml:6: [[decal]] 2: \"axis_x\" is 1; it must be 3 numbers in []"});
     expect_key_refused("region = 1\n", {"\"region\" is 1; it must be 4 numbers in []"});
 }
 
@@ -66,7 +66,7 @@ TEST_F(DecalToml, NamesFileLineDecalAndKeyOfAMistake) {
 
 TEST_F(DecalToml, SaysWhatTypeAKeyTakes) {
     expect_key_refused("half_size = [\"1\", 1, 1]\n", {"the text \"1\"", "must be a number"});
-    expect_key_refused("half_size = [1, 1]\n", {"2 values in []", "must be 3 numbers in []"});
+    expect_key_refused("half_size = [1, 1]\n", {": \"half_size\" is 2 values in []", "must be 3 numbers in []"});
     expect_key_refused("scale = true\n", {"\"scale\" is true", "must be a number"});
     expect_key_refused("scale = \"0.5\"\n", {"the text \"0.5\"", "must be a number"});
     expect_key_refused("object = nan\n", {"\"object\" is nan", "must be a number"});
