@@ -77,6 +77,7 @@ void MaskMatches::look(Labels& labels, const float* values, const float* coverag
         if (found == labels.unseen.end()) continue;
         for (const std::size_t wanted : found->second) wanted_[wanted].seen = true;
         labels.unseen.erase(found);
+        if (labels.unseen.empty()) return;
     }
 }
 
