@@ -106,6 +106,7 @@ void print_json(const RenderReport& report) {
                                       {"peak_memory_bytes", report.peak_memory},
                                       {"cameras", report.cameras},
                                       {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
+                                      {"warnings", report.warnings},
                                       {"files", files}}
                            .dump(2));
 }
@@ -134,10 +135,12 @@ void run(const RunArguments& arguments) {
     }
     options.progress = progress_bar(!arguments.quiet && !arguments.json);
     const RenderReport report = render(scene, options);
-    if (arguments.json)
+    if (arguments.json) {
         print_json(report);
-    else if (!arguments.quiet)
+    } else if (!arguments.quiet) {
+        for (const std::string& warning : report.warnings) fmt::print(stderr, "wrinkle: warning: {}\n", warning);
         print_table(report);
+    }
 }
 
 }  // namespace

@@ -77,7 +77,9 @@ void add_scatter(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("scatter", "Place decals on a scene's frame at random, a Poisson disk sample, into a table");
     command->add_option("SCENE", arguments->scene, "scene file (TOML); its layers do not matter")->required();
-    command->add_option("-o,--output", arguments->file, "the table")->type_name("FILE")->capture_default_str();
+    command->add_option("-o,--output", arguments->file, "the table: TOML if named .toml, else CSV")
+        ->type_name("FILE")
+        ->capture_default_str();
     command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
     command->add_option("--count", options.count, "decals, at most")
         ->capture_default_str()

@@ -107,10 +107,7 @@ void add_pixel_centres(EvalInputs<T>& inputs, const Function& function) {
     std::string text = fmt::format("{} needs columns that {} does not have:", function.name, name);
     for (const std::string& column : missing)
         text += fmt::format("\n  \"{}\"{}", column, scene::did_you_mean(column, others));
-    text += "\nit has " + scene::quote_list(table.names());
-    if (table.names().size() == 1 && table.names()[0].find_first_of(";\t") != std::string::npos)
-        text += "; cells must be separated by commas";
-    throw Error(text);
+    throw Error(text + "\nit has " + scene::quote_list(table.names()));
 }
 
 }  // namespace

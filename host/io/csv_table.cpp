@@ -12,13 +12,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/csv_rows.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
 
 namespace {
-
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Short and on one line, whatever the cell held.
 std::string shown(std::string_view cell) {
@@ -45,67 +44,23 @@ bool parse(std::string_view text, T& value) {
 
 }  // namespace
 
-/// Takes what libcsv finds. Its callbacks come through C: they keep what is wrong instead of throwing.
-struct CsvTable::Parser {
-    CsvTable& table;
-    std::string problem{};
-    std::size_t cells = 0;                    ///< of this row
-    std::uint32_t line = 1, inner_lines = 0;  ///< where the row begins; line ends within its cells
-    int last_end = 0;                         ///< the line end just read, of '\r' '\n'
-    bool header = true;
-
-    static void cell(void* data, std::size_t size, void* self) {
-        static_cast<Parser*>(self)->add_cell({static_cast<const char*>(data), size});
-    }
-    static void row(int end, void* self) { static_cast<Parser*>(self)->end_row(end); }
-
-    void add_cell(std::string_view cell) {
-        last_end = 0;
-        ++cells;
-        if (header) {
-            table.names_.emplace_back(cell);
-        } else {
-            table.text_ += cell;
-            table.ends_.push_back(table.text_.size());
-        }
-        inner_lines += static_cast<std::uint32_t>(std::ranges::count(cell, '\n'));
-    }
-
-    void end_row(int end) {
-        if (last_end == '\r' && end == '\n') {
-            last_end = 0;
+CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
+    text_.reserve(text.size());
+    read_csv_rows(text, name_, CsvComments::none, [this](std::uint32_t line, std::span<const std::string_view> cells) {
+        if (names_.empty()) {
+            names_.assign(cells.begin(), cells.end());
             return;
         }
-        if (cells > 0) {
-            if (!header) table.lines_.push_back(line);
-            if (!header && cells != table.names_.size() && problem.empty())
-                problem = fmt::format("{}:{}: row {} has {} cell{}, the header {} column{}", table.name_, line,
-                                      table.lines_.size(), cells, cells == 1 ? "" : "s", table.names_.size(),
-                                      table.names_.size() == 1 ? "" : "s");
-            header = false;
+        lines_.push_back(line);
+        if (cells.size() != names_.size())
+            throw Error(fmt::format("{}:{}: row {} has {} cell{}, the header {} column{}", name_, line, lines_.size(),
+                                    cells.size(), cells.size() == 1 ? "" : "s", names_.size(),
+                                    names_.size() == 1 ? "" : "s"));
+        for (const std::string_view cell : cells) {
+            text_ += cell;
+            ends_.push_back(text_.size());
         }
-        line += inner_lines + 1;
-        cells = inner_lines = 0, last_end = end;
-    }
-};
-
-CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-    if (text.find('\0') != std::string_view::npos)
-        throw Error(fmt::format("{}: no CSV in ASCII or UTF-8: it holds zero bytes", name_));
-    text_.reserve(text.size());
-    csv_parser parser;
-    csv_init(&parser, CSV_REPALL_NL | CSV_STRICT | CSV_STRICT_FINI);
-    Parser state{*this};
-    const bool parsed = csv_parse(&parser, text.data(), text.size(), Parser::cell, Parser::row, &state) == text.size();
-    const bool closed = parsed && csv_fini(&parser, Parser::cell, Parser::row, &state) == 0;
-    const int error = csv_error(&parser);
-    csv_free(&parser);
-    if (error == CSV_ENOMEM) throw std::bad_alloc();
-    if (!parsed)
-        throw Error(fmt::format("{}:{}: a quote within a cell; quote the cell and double it", name_, state.line));
-    if (!closed) throw Error(fmt::format("{}:{}: a quote is not closed", name_, state.line));
-    if (!state.problem.empty()) throw Error(state.problem);
+    });
     if (names_.empty()) throw Error(fmt::format("{} is empty; its first row must name the columns", name_));
 }
 

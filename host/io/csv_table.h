@@ -8,11 +8,10 @@
 
 namespace wrinkle::io {
 
-/// The cells of a CSV file as text (RFC 4180; any line ends, a byte order mark, quoted cells, blanks around cells).
-/// The first row names the columns. Lines without a cell are skipped.
+/// The cells of a CSV file as text, in the dialects that csv_rows.h knows. The first row names the columns.
 class CsvTable {
 public:
-    /// Throws Error when the text is empty, a row has more or fewer cells than the header, or a quote stays open.
+    /// Throws Error when the text is empty, a row has more or fewer cells than the header, or read_csv_rows does.
     /// `name` is for messages.
     CsvTable(std::string_view text, std::string name);
 
@@ -26,8 +25,6 @@ public:
     std::vector<T> numbers(const std::string& name) const;
 
 private:
-    struct Parser;
-
     std::string name_, text_;  ///< all cells, one after another
     std::vector<std::string> names_;
     std::vector<std::size_t> ends_;     ///< in text_, of each cell

@@ -71,7 +71,7 @@ bool NpyRecords::is(const std::filesystem::path& file) {
 }
 
 NpyRecords::NpyRecords(const std::filesystem::path& file) : bytes_(read_text(file)) {
-    const std::string name = file.filename().string();
+    const std::string name = file.string();
     const NpyHeader header = read_npy_header(bytes_, name);
     if (!header.type.empty())
         throw Error(

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "plan/layer_text.h"
 #include "wrinkle/error.h"
@@ -25,6 +26,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     for (const Layer* each : layers)
         if (!std::isfinite(each->scale))
             throw Error(fmt::format("{}: scale is {}; it must be finite", layer_label(*each), each->scale));
+    const std::size_t known_textures = emitter.plan.textures.size();
     const std::string mask = emit_mask(emitter, layer, section);
     LayerText text{emitter, layer, who, section};
     const std::string bump = std::visit(
@@ -37,6 +39,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
                 return {};
         },
         layer.bump);
+    for (PlannedTexture& texture : std::span(emitter.plan.textures).subspan(known_textures)) texture.layer = who;
     std::string condition = "wr_any(active)";
     if (emitter.options.switches)
         condition = fmt::format("origins[{}] != 0 && {}", 4 * emitter.origin({.fourth = layer.scale}) + 3, condition);

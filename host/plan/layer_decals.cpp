@@ -36,7 +36,7 @@ std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& lay
 }
 
 /// Text that multiplies `weight` by what the row's own mask says.
-std::string row_masks(LayerText& at, PlannedDecals& table) {
+std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& table) {
     const std::vector<Projector>& rows = *table.rows;
     if (std::ranges::any_of(rows, [](const Projector& row) { return row.object && !row.cryptomatte.empty(); }))
         throw Error(at.who + ": a row has both an object and a Cryptomatte object; give one");
@@ -51,10 +51,12 @@ std::string row_masks(LayerText& at, PlannedDecals& table) {
     if (std::ranges::none_of(rows, [](const Projector& row) { return !row.cryptomatte.empty(); })) return text;
     at.emitter.need(at.who, {"crypto.id0", "crypto.coverage0"});
     std::map<std::string, std::uint32_t> hashes;
-    for (const Projector& row : rows) {
-        if (const auto [found, is_new] = hashes.try_emplace(row.cryptomatte); is_new && !row.cryptomatte.empty())
-            found->second = at.emitter.cryptomatte_hash(row.cryptomatte, at.who);
-        table.hashes.push_back(hashes.at(row.cryptomatte));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::string& name = rows[i].cryptomatte;
+        const auto [found, is_new] = hashes.try_emplace(name);
+        if (is_new && !name.empty())
+            found->second = at.emitter.cryptomatte_hash(name, at.who + ": " + row_place(layer, i));
+        table.hashes.push_back(found->second);
     }
     text += "                if (decal->mask == 2) {\n                    real covered = 0;\n";
     for (int rank = 0; at.emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
@@ -119,7 +121,7 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
         }}
         dh_dp = wr_fma(sum, m, dh_dp);
 )",
-        another_table, facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, table),
+        another_table, facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, l, table),
         at.layer.footprint
             ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
             : "0");

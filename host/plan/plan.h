@@ -75,6 +75,7 @@ struct PlannedTexture {
     TexelKind kind = TexelKind::slope;
     std::string grid{};                        ///< of a volume
     std::array<double, 4> region{0, 0, 1, 1};  ///< of the image: s and t from, s and t to
+    std::string layer{};                       ///< label of the first layer that uses it, for messages
 };
 
 /// A table of decals as kernels see it.

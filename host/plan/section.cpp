@@ -108,6 +108,13 @@ std::string layer_label(const Layer& layer) {
     return fmt::format("{}{}layer \"{}\"", layer.location, layer.location.empty() ? "" : ": ", layer.name);
 }
 
+std::string row_place(const DecalsLayer& table, std::size_t row) {
+    const std::uint32_t line = table.rows->at(row).line;
+    if (table.file.empty()) return fmt::format("row {}", row);
+    return line > 0 ? fmt::format("{}:{}", table.file.string(), line)
+                    : fmt::format("{}: row {}", table.file.string(), row);
+}
+
 std::string literal(double value) {
     if (!std::isfinite(value)) throw Error(fmt::format("a number of the scene is {}; it must be finite", value));
     std::string digits = fmt::format("{:.17g}", value);

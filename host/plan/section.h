@@ -62,6 +62,8 @@ std::string identifier(const std::string& plane);
 
 /// Where a layer comes from and its name, to start a message: scene.toml:12: layer "dents".
 std::string layer_label(const Layer& layer);
+/// Where a row of a table comes from: decals.csv:12; of files without lines, and of rows made in code, its number.
+std::string row_place(const DecalsLayer& table, std::size_t row);
 
 /// Emits the layers [first, last) that one section holds: a single layer or consecutive decals.
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);

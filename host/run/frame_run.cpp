@@ -70,6 +70,11 @@ void FrameRun::read(Slot& slot) {
         for (const std::string& name : names_) planes.push_back(slot.inputs.map<float>(name, CL_MAP_WRITE));
         reader_.read_rows(slot.rows.first - slot.rows.before, slot.rows.first + slot.rows.count + slot.rows.after,
                           names_, planes);
+        if (matches_ == nullptr) return;
+        std::map<std::string, const float*> shown;
+        for (std::size_t i = 0; i < names_.size(); ++i) shown[names_[i]] = planes[i];
+        const std::size_t rows = slot.rows.before + slot.rows.count + slot.rows.after;
+        matches_->see(shown, rows * pass_.size.width);
     });
 }
 

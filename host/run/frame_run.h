@@ -7,6 +7,7 @@
 #include "run/condition.h"
 #include "run/error_sample.h"
 #include "run/frame_outputs.h"
+#include "run/mask_matches.h"
 #include "run/phase_clock.h"
 
 namespace wrinkle {
@@ -22,6 +23,8 @@ public:
     void measure(ErrorSample& sample, const Camera& camera);
     /// Writes the condition of every pixel too.
     void add_condition(Condition& condition) { condition_ = &condition; }
+    /// Shows it all pixels, once the frame has begun there.
+    void match_masks(MaskMatches& matches) { matches_ = &matches; }
     /// Enqueues the kernels this often, to time them.
     void repeat(int times) { repeat_ = times; }
 
@@ -47,6 +50,7 @@ private:
     FrameOutputs* outputs_ = nullptr;
     ErrorSample* sample_ = nullptr;
     Condition* condition_ = nullptr;
+    MaskMatches* matches_ = nullptr;
     int repeat_ = 1;
     std::vector<std::string> names_;
     double kernel_seconds_ = 0;

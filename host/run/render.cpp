@@ -17,15 +17,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Hashes of every Cryptomatte name that a scene's masks use, and of those the file lists.
+/// Hashes of every Cryptomatte name that a scene's masks and decals use, and of those the file lists.
 std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, const GBufferReader& reader) {
     std::map<std::string, std::uint32_t> hashes;
     for (const std::string& name : reader.cryptomatte().names()) hashes.emplace(name, reader.cryptomatte().id(name));
-    for (const Layer& layer : scene.layers) {
-        if (!layer.mask.cryptomatte || !reader.has_role("cryptomatte")) continue;
+    if (!reader.has_role("cryptomatte")) return hashes;
+    const auto add = [&](const std::string& name, const auto& who) {
+        if (name.empty() || hashes.contains(name)) return;
         try {
-            hashes.emplace(*layer.mask.cryptomatte, reader.cryptomatte().id(*layer.mask.cryptomatte));
-        } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
+            hashes.emplace(name, reader.cryptomatte().id(name));
+        } catch (const Error& error) { throw Error(fmt::format("{}: {}", who(), error.what())); }
+    };
+    for (const Layer& layer : scene.layers) {
+        if (layer.mask.cryptomatte) add(*layer.mask.cryptomatte, [&] { return layer_label(layer); });
+        const auto* table = std::get_if<DecalsLayer>(&layer.bump);
+        for (std::size_t i = 0; table != nullptr && table->rows && i < table->rows->size(); ++i)
+            add(table->rows->at(i).cryptomatte, [&] { return layer_label(layer) + ": " + row_place(*table, i); });
     }
     return hashes;
 }
@@ -113,6 +120,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     std::optional<KeptBudget> kept;
     std::optional<Condition> condition;
     Frame condition_for;
+    MaskMatches matches(scene);
     for (std::size_t f = 0; f < frames.size(); ++f) {
         GBufferReader reader = clock.measure(PhaseClock::read, [&] { return open_frame(scene, frames[f]); });
         const FrameCamera camera = clock.measure(PhaseClock::read, [&] {
@@ -124,6 +132,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
                                                                camera.origin, camera.residual->median)
                                                  : fmt::format("{}; no positions to check it against", camera.origin));
         const Frame frame = frame_of(scene, reader, camera);
+        matches.begin(frame);
         if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
             kept.emplace(clock.measure(PhaseClock::build, [&] {
                 return KeptBudget{Budget(scene, camera_kind(frame.camera, frame.size), costs_of(device.info)),
@@ -140,6 +149,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         const auto evaluated = [&](const PassOptions& how, FrameOutputs* outputs) {
             Pass& pass = passes.get(frame, how);
             FrameRun run(pass.impl(), reader, clock);
+            run.match_masks(matches);
             if (outputs != nullptr) {
                 run.write_to(*outputs);
                 if (condition) run.add_condition(*condition);
@@ -172,6 +182,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         report.pixels += std::uint64_t{frame.size.width} * frame.size.height;
         ++report.frames;
     }
+    report.warnings = matches.warnings();
     if (kept) report.budget = kept->budget.report();
     report.device = device.info;
     for (const Layer& layer : scene.layers) report.layers += std::holds_alternative<ResolveLayer>(layer.bump) ? 0 : 1;

@@ -138,7 +138,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
     std::map<std::pair<std::filesystem::path, Content>, Image> atlases;  // files of which only regions are used
-    for (const PlannedTexture& texture : planned) {
+    const auto load = [&](const PlannedTexture& texture) {
         if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
             add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
         } else if (is_whole(texture)) {
@@ -147,6 +147,14 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
             const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, texture.use.content});
             if (is_new) atlas->second = load_bump(texture.use);
             add_texture(heap, atlas->second, texture);
+        }
+    };
+    for (const PlannedTexture& texture : planned) {
+        try {
+            load(texture);
+        } catch (const Error& error) {
+            if (texture.layer.empty()) throw;
+            throw Error(fmt::format("{}: {}", texture.layer, error.what()));
         }
     }
     heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats

@@ -20,7 +20,7 @@ struct TextureHeap {
 /// slopes as they are; object-space normals as vectors of four floats.
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned);
 
-/// Loads all textures of a plan. Throws Error for files that cannot be used.
+/// Loads all textures of a plan. Throws Error for files that cannot be used, naming the layer that does.
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned);
 
 /// Throws Error, with the sizes, where the heap is more than one buffer of the device may hold.

@@ -91,53 +91,57 @@ std::string object(double value, std::optional<double>& out) {
 }
 
 /// A column of numbers that `READ(value, member)` checks.
-#define NUMERIC(NAME, MEMBER, READ, WRITE)                                                                           \
+#define CHECKED(NAME, KEY, SIZE, MEMBER, READ, WRITE)                                                                \
     {                                                                                                                \
-        NAME, [](std::string_view f, Projector& p) { return READ(parsed(f), MEMBER); },                              \
+        NAME, KEY, SIZE, Field::number, [](std::string_view f, Projector& p) { return READ(parsed(f), MEMBER); },    \
             [](double value, Projector& p) { return READ(value, MEMBER); }, [](const Projector& p) { return WRITE; } \
     }
-#define NUMBER(NAME, MEMBER, RANGE)                                                                \
-    {                                                                                              \
-        NAME, [](std::string_view f, Projector& p) { return number(parsed(f), p.MEMBER, RANGE); }, \
-            [](double value, Projector& p) { return number(value, p.MEMBER, RANGE); },             \
-            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }                         \
-    }
-#define VECTOR(X, Y, Z, MEMBER, RANGE) \
-    NUMBER(X, MEMBER[0], RANGE), NUMBER(Y, MEMBER[1], RANGE), NUMBER(Z, MEMBER[2], RANGE)
-#define CHOICE(NAME, MEMBER, NAMES, TAKE)                                                        \
+#define RANGED(NAME, KEY, SIZE, MEMBER, RANGE)                                                   \
     {                                                                                            \
-        NAME, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); }, TAKE, \
-            [](const Projector& p) { return std::string(NAMES[static_cast<int>(p.MEMBER)]); }    \
+        NAME, KEY, SIZE, Field::number,                                                          \
+            [](std::string_view f, Projector& p) { return number(parsed(f), p.MEMBER, RANGE); }, \
+            [](double value, Projector& p) { return number(value, p.MEMBER, RANGE); },           \
+            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }                       \
     }
+#define NUMBER(NAME, MEMBER, RANGE) RANGED(NAME, NAME, 0, MEMBER, RANGE)
+#define PAIR(X, Y, KEY, MEMBER, RANGE) RANGED(X, KEY, 2, MEMBER[0], RANGE), RANGED(Y, KEY, 2, MEMBER[1], RANGE)
+#define VECTOR(X, Y, Z, KEY, MEMBER, RANGE) \
+    RANGED(X, KEY, 3, MEMBER[0], RANGE), RANGED(Y, KEY, 3, MEMBER[1], RANGE), RANGED(Z, KEY, 3, MEMBER[2], RANGE)
+#define CHOICE(NAME, FIELD, MEMBER, NAMES, TAKE)                                                                 \
+    {                                                                                                            \
+        NAME, NAME, 0, FIELD, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); }, TAKE, \
+            [](const Projector& p) { return std::string(NAMES[static_cast<int>(p.MEMBER)]); }                    \
+    }
+#define ANGLE(NAME, MEMBER) CHECKED(NAME, "angle_fade", 2, MEMBER, angle, angle_text(MEMBER))
 
 // The columns of the position come first: they are the ones that have to be there.
 constexpr DecalColumn columns[] = {
-    VECTOR("x", "y", "z", center, any_number),
-    CHOICE("shape", shape, shapes, nullptr),
-    NUMERIC("texture", p.texture, whole, fmt::format("{}", p.texture)),
-    NUMBER("s0", region[0], zero_to_one),
-    NUMBER("t0", region[1], zero_to_one),
-    NUMBER("s1", region[2], zero_to_one),
-    NUMBER("t1", region[3], zero_to_one),
-    VECTOR("axis_x_x", "axis_x_y", "axis_x_z", axis_x, any_number),
-    VECTOR("axis_y_x", "axis_y_y", "axis_y_z", axis_y, any_number),
-    VECTOR("half_x", "half_y", "half_z", half_size, positive),
+    VECTOR("x", "y", "z", "center", center, any_number),
+    CHOICE("shape", Field::name, shape, shapes, nullptr),
+    CHECKED("texture", "texture", 0, p.texture, whole, fmt::format("{}", p.texture)),
+    RANGED("s0", "region", 4, region[0], zero_to_one),
+    RANGED("t0", "region", 4, region[1], zero_to_one),
+    RANGED("s1", "region", 4, region[2], zero_to_one),
+    RANGED("t1", "region", 4, region[3], zero_to_one),
+    VECTOR("axis_x_x", "axis_x_y", "axis_x_z", "axis_x", axis_x, any_number),
+    VECTOR("axis_y_x", "axis_y_y", "axis_y_z", "axis_y", axis_y, any_number),
+    VECTOR("half_x", "half_y", "half_z", "half_size", half_size, positive),
     NUMBER("scale", scale, any_number),
-    VECTOR("falloff_x", "falloff_y", "falloff_z", falloff, zero_to_one),
-    NUMERIC("angle_full", p.angle_fade[1], angle, angle_text(p.angle_fade[1])),
-    NUMERIC("angle_zero", p.angle_fade[0], angle, angle_text(p.angle_fade[0])),
-    CHOICE("two_sided", two_sided, truths, [](double value, Projector& p) { return truth(value, p.two_sided); }),
-    CHOICE("wrap", wrap, wraps, nullptr),
-    NUMBER("repeat_s", repeat[0], positive),
-    NUMBER("repeat_t", repeat[1], positive),
-    CHOICE("mode", mode, modes, nullptr),
+    VECTOR("falloff_x", "falloff_y", "falloff_z", "falloff", falloff, zero_to_one),
+    ANGLE("angle_full", p.angle_fade[1]),
+    ANGLE("angle_zero", p.angle_fade[0]),
+    CHOICE("two_sided", Field::truth, two_sided, truths,
+           [](double value, Projector& p) { return truth(value, p.two_sided); }),
+    CHOICE("wrap", Field::name, wrap, wraps, nullptr),
+    PAIR("repeat_s", "repeat_t", "repeat", repeat, positive),
+    CHOICE("mode", Field::name, mode, modes, nullptr),
     NUMBER("opacity", opacity, zero_to_one),
     NUMBER("priority", priority, any_number),
-    {"object", [](std::string_view f, Projector& p) { return object(parsed(f), p.object); },
+    {"object", "object", 0, Field::number, [](std::string_view f, Projector& p) { return object(parsed(f), p.object); },
      // Arrays of numbers have no empty fields: there, NaN is any object.
      [](double value, Projector& p) { return std::isnan(value) ? std::string{} : object(value, p.object); },
      [](const Projector& p) { return p.object ? fmt::format("{}", *p.object) : std::string{}; }},
-    {"cryptomatte",
+    {"cryptomatte", "cryptomatte", 0, Field::name,
      [](std::string_view f, Projector& p) {
          p.cryptomatte = f;
          return std::string{};

@@ -12,95 +12,114 @@ namespace wrinkle::scene {
 namespace {
 
 constexpr std::size_t kMostProblems = 20;
-constexpr std::size_t kRequired = 3;  // columns, the first ones
+
+/// How messages begin that are about a row; `rows` were begun until then.
+std::string row_prefix(DecalReader::Form form, std::size_t rows) {
+    if (form == DecalReader::Form::npy) return fmt::format("row {}: ", rows - 1);
+    return form == DecalReader::Form::toml ? fmt::format("[[decal]] {}: ", rows) : std::string{};
+}
 
 }  // namespace
 
-void DecalReader::complain(std::uint32_t place, std::string text) {
-    last_ = place;
-    if (count_++ >= kMostProblems) return;
-    if (places_ == Places::lines)
-        problems_.add(place, std::move(text));
-    else
-        problems_.add(0, fmt::format("row {}: {}", place, text));
+void DecalReader::complain(std::uint32_t line, std::string text) {
+    last_line_ = line, last_row_ = rows_.size();
+    if (count_++ < kMostProblems) problems_.add(line, row_prefix(form_, last_row_) + text);
 }
 
-void DecalReader::read_header(const std::vector<std::string>& names, std::uint32_t place) {
+void DecalReader::complain_of_file(std::uint32_t line, std::string text) {
+    last_line_ = line, last_row_ = rows_.size();
+    if (count_++ < kMostProblems) problems_.add(line, std::move(text));
+}
+
+void DecalReader::read_header(std::span<const std::string> names, std::uint32_t line) {
     std::vector<std::string> known;
     for (const DecalColumn& column : decal_columns()) known.emplace_back(column.name);
-    const auto complain_of_header = [&](std::string text) {
-        if (count_++ < kMostProblems) problems_.add(place, std::move(text));
-    };
     for (const std::string& name : names) {
         const auto found = std::ranges::find(known, name);
         const DecalColumn* column =
             found == known.end() ? nullptr : &decal_columns()[static_cast<std::size_t>(found - known.begin())];
         if (!column)
-            complain_of_header(fmt::format("unknown column {}{}", quote(name),
-                                           did_you_mean(name, known).empty()
-                                               ? fmt::format("; known columns: {}", fmt::join(known, ", "))
-                                               : did_you_mean(name, known)));
+            complain_of_file(line, fmt::format("unknown column {}{}", quote(name),
+                                               did_you_mean(name, known).empty()
+                                                   ? fmt::format("; known columns: {}", fmt::join(known, ", "))
+                                                   : did_you_mean(name, known)));
         else if (std::ranges::find(header_, column) != header_.end())
-            complain_of_header(fmt::format("the column {} is there twice", quote(name)));
+            complain_of_file(line, fmt::format("the column {} is there twice", quote(name)));
         header_.push_back(column);
     }
-    for (const DecalColumn& column : decal_columns().first(kRequired))
+    for (const DecalColumn& column : decal_columns().first(kRequiredColumns))
         if (std::ranges::find(header_, &column) == header_.end())
-            complain_of_header(fmt::format("the column {} is missing", quote(column.name)));
+            complain_of_file(line, fmt::format("the column {} is missing", quote(column.name)));
 }
 
-void DecalReader::begin_row(std::uint32_t place) {
-    place_ = place;
-    rows_.emplace_back();
+void DecalReader::begin_row(std::uint32_t line) {
+    line_ = line;
+    rows_.emplace_back().line = line;
 }
 
-void DecalReader::complain_of(const DecalColumn& column, const std::string& found, const std::string& wrong) {
-    complain(place_, fmt::format("column {} is {}; it {}", quote(column.name), found, wrong));
+std::string DecalReader::named(const DecalColumn& column) const {
+    if (form_ != Form::toml) return "column " + quote(column.name);
+    if (column.size == 0) return quote(column.key);
+    const DecalColumn* first = &column;
+    while (first != decal_columns().data() && std::string_view((first - 1)->key) == column.key) --first;
+    return fmt::format("element {} of {}", &column - first + 1, quote(column.key));
 }
 
-void DecalReader::read_text(std::size_t column, std::string_view field) {
-    const DecalColumn* known = header_[column];
-    if (!known) return;
+std::string DecalReader::listed(std::initializer_list<const char*> columns) const {
+    std::vector<std::string> names;
+    for (const char* name : columns) {
+        const auto column = std::ranges::find(decal_columns(), std::string_view(name), &DecalColumn::name);
+        const std::string shown = quote(form_ == Form::toml ? column->key : column->name);
+        if (std::ranges::find(names, shown) == names.end()) names.push_back(shown);
+    }
+    return fmt::format("{}{}", form_ == Form::toml ? "" : "columns ", fmt::join(names, ", "));
+}
+
+void DecalReader::refuse(const DecalColumn& column, const std::string& found, const std::string& wrong) {
+    complain(line_, fmt::format("{} is {}; it {}", named(column), found, wrong));
+}
+
+void DecalReader::read_text(const DecalColumn& column, std::string_view field) {
     if (field.empty()) {
-        if (known < decal_columns().data() + kRequired)
-            complain(place_, fmt::format("column {} is empty", quote(known->name)));
+        if (&column < decal_columns().data() + kRequiredColumns)
+            complain(line_, fmt::format("{} is empty", named(column)));
         return;
     }
-    if (const std::string wrong = known->read(field, rows_.back()); !wrong.empty())
-        complain_of(*known, quote(field), wrong);
+    if (const std::string wrong = column.read(field, rows_.back()); !wrong.empty()) refuse(column, quote(field), wrong);
 }
 
-void DecalReader::read_number(std::size_t column, double value) {
-    const DecalColumn* known = header_[column];
-    if (!known) return;
+void DecalReader::read_number(const DecalColumn& column, double value) {
     const std::string wrong =
-        known->take ? known->take(value, rows_.back()) : std::string("holds text: a field of kind S or U");
-    if (!wrong.empty()) complain_of(*known, fmt::format("{}", value), wrong);
+        column.take ? column.take(value, rows_.back()) : std::string("holds text: a field of kind S or U");
+    if (!wrong.empty()) refuse(column, fmt::format("{}", value), wrong);
 }
 
 /// What single fields cannot show.
 void DecalReader::end_row() {
     const Projector& row = rows_.back();
+    const auto wrong = [&](std::initializer_list<const char*> columns, const char* text) {
+        complain(row.line, fmt::format("{} {}", listed(columns), text));
+    };
     if (row.texture >= textures_)
-        complain(place_, fmt::format("column \"texture\" is {}; the layer has {} texture{}, counted from 0",
-                                     row.texture, textures_, textures_ == 1 ? "" : "s"));
+        complain(row.line,
+                 fmt::format("{}\"texture\" is {}; the layer has {} texture{}, counted from 0",
+                             form_ == Form::toml ? "" : "column ", row.texture, textures_, textures_ == 1 ? "" : "s"));
     if (row.region[0] >= row.region[2] || row.region[1] >= row.region[3])
-        complain(place_, "columns \"s0\", \"t0\" must be below \"s1\", \"t1\"");
+        wrong({"s0", "t0", "s1", "t1"}, "must have s0 below s1, and t0 below t1");
     if (row.angle_fade[0] > row.angle_fade[1])
-        complain(place_, "column \"angle_full\" must not be above \"angle_zero\"");
+        wrong({"angle_full", "angle_zero"}, "must be the angle that gets all, then a larger one that gets nothing");
     if (row.object && !row.cryptomatte.empty())
-        complain(place_, "columns \"object\" and \"cryptomatte\" cannot both be given; leave one empty");
+        wrong({"object", "cryptomatte"}, "cannot both be given; leave one empty");
     if (parallel(row.axis_x, row.axis_y))
-        complain(place_, "columns \"axis_x_...\" and \"axis_y_...\" must not be parallel, nor zero");
+        wrong({"axis_x_x", "axis_x_y", "axis_x_z", "axis_y_x", "axis_y_y", "axis_y_z"},
+              "must be two axes, not parallel, nor zero");
 }
 
 std::vector<Projector> DecalReader::finish() {
-    if (count_ > kMostProblems) {
-        const std::size_t more = count_ - kMostProblems;
-        problems_.add(places_ == Places::lines ? last_ : 0,
-                      fmt::format("{}and {} more mistakes",
-                                  places_ == Places::lines ? "" : fmt::format("row {}: ", last_), more));
-    }
+    if (count_ > kMostProblems)
+        problems_.add(last_line_,
+                      fmt::format("{}and {} more mistakes", last_row_ > 0 ? row_prefix(form_, last_row_) : "",
+                                  count_ - kMostProblems));
     problems_.throw_if_any();
     return std::move(rows_);
 }

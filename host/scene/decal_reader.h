@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,37 +12,46 @@
 namespace wrinkle::scene {
 
 /// The rows of a table of decals while they are read, and what is wrong with them: the first mistakes in full, the rest
-/// as a number. A place is a line of a text file; of other files, a row.
+/// as a number. Mistakes are told in the words of the table's form.
 class DecalReader {
 public:
-    enum class Places { lines, rows };
-    /// `textures`: how many textures rows may name.
-    DecalReader(const std::string& file, std::size_t textures, Places places)
-        : problems_(file), textures_(textures), places_(places) {}
+    enum class Form { csv, npy, toml };
+    /// `file` as messages show it. `textures`: how many textures rows may name.
+    DecalReader(const std::string& file, std::size_t textures, Form form)
+        : problems_(file), textures_(textures), form_(form) {}
 
-    void complain(std::uint32_t place, std::string text);
+    /// Of the row being read; `line` 0 where the form has none.
+    void complain(std::uint32_t line, std::string text);
+    /// Of the file.
+    void complain_of_file(std::uint32_t line, std::string text);
 
     /// Names of the columns in the order of the fields; a column is null where no such one is known.
-    void read_header(const std::vector<std::string>& names, std::uint32_t place);
+    void read_header(std::span<const std::string> names, std::uint32_t line);
     const std::vector<const DecalColumn*>& header() const { return header_; }
 
     /// A row is begun, its fields are read, and it is ended.
-    void begin_row(std::uint32_t place);
+    void begin_row(std::uint32_t line);
+    /// The fields that follow are in this line.
+    void go_to(std::uint32_t line) { line_ = line; }
     /// Empty text is the default.
-    void read_text(std::size_t column, std::string_view field);
-    void read_number(std::size_t column, double value);
+    void read_text(const DecalColumn& column, std::string_view field);
+    void read_number(const DecalColumn& column, double value);
+    /// A field that is no text or number for this column.
+    void refuse(const DecalColumn& column, const std::string& found, const std::string& wrong);
     void end_row();
 
     /// Throws Error if anything was wrong.
     std::vector<Projector> finish();
 
 private:
-    void complain_of(const DecalColumn& column, const std::string& found, const std::string& wrong);
+    std::string named(const DecalColumn& column) const;
+    std::string listed(std::initializer_list<const char*> columns) const;
 
     Problems problems_;
     std::size_t textures_, count_ = 0;
-    Places places_;
-    std::uint32_t place_ = 0, last_ = 0;  ///< of the row being read; of the last mistake
+    Form form_;
+    std::uint32_t line_ = 0, last_line_ = 0;  ///< of the field being read; of the last mistake
+    std::size_t last_row_ = 0;
     std::vector<const DecalColumn*> header_;
     std::vector<Projector> rows_;
 };

@@ -3,80 +3,80 @@
 #include <algorithm>
 
 #include "io/atomic_file.h"
+#include "io/csv_rows.h"
+#include "io/csv_table.h"
 #include "io/npy_records.h"
 #include "scene/decal_reader.h"
-#include "scene/files.h"
+#include "scene/decal_toml.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 namespace scene {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-    return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
-}
-
-/// Takes what stands before the next `mark`.
-std::string_view take(std::string_view& rest, char mark) {
-    const std::size_t end = rest.find(mark);
-    const std::string_view part = rest.substr(0, end);
-    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
-    return part;
-}
-
-std::size_t fields_of(std::string_view line) { return static_cast<std::size_t>(std::ranges::count(line, ',')) + 1; }
-
 std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t textures) {
-    const std::string text = read_text(file);
-    DecalReader reader(file.filename().string(), textures, DecalReader::Places::lines);
-    std::string_view rest = text;
-    for (std::uint32_t number = 1; !rest.empty(); ++number) {
-        std::string_view line = take(rest, '\n');
-        if (const std::string_view content = trimmed(line); content.empty() || content.front() == '#') continue;
-        const std::size_t fields = fields_of(line), columns = reader.header().size();
-        if (columns == 0) {
-            std::vector<std::string> names;
-            for (std::size_t i = 0; i < fields; ++i) names.emplace_back(trimmed(take(line, ',')));
-            reader.read_header(names, number);
-            continue;
+    DecalReader reader(file.string(), textures, DecalReader::Form::csv);
+    const auto take = [&](std::uint32_t line, std::span<const std::string_view> cells) {
+        const std::vector<const DecalColumn*>& columns = reader.header();
+        if (columns.empty()) {
+            reader.read_header(std::vector<std::string>(cells.begin(), cells.end()), line);
+        } else if (cells.size() != columns.size()) {
+            reader.complain(line,
+                            fmt::format("has {} fields; the header names {} columns", cells.size(), columns.size()));
+        } else {
+            reader.begin_row(line);
+            for (std::size_t i = 0; i < cells.size(); ++i)
+                if (columns[i] != nullptr) reader.read_text(*columns[i], cells[i]);
+            reader.end_row();
         }
-        if (fields != columns) {
-            reader.complain(number, fmt::format("has {} fields; the header names {} columns", fields, columns));
-            continue;
-        }
-        reader.begin_row(number);
-        for (std::size_t column = 0; column < columns; ++column) reader.read_text(column, trimmed(take(line, ',')));
-        reader.end_row();
-    }
-    if (reader.header().empty()) reader.complain(0, "holds no table; its first line names the columns, at least x,y,z");
+    };
+    io::read_csv_rows(io::read_text(file), file.string(), io::CsvComments::lines, take);
+    if (reader.header().empty())
+        reader.complain_of_file(0, "holds no table; its first line names the columns, at least x,y,z");
     return reader.finish();
 }
 
 std::vector<Projector> load_npy(const std::filesystem::path& file, std::size_t textures) {
     const io::NpyRecords records(file);
-    DecalReader reader(file.filename().string(), textures, DecalReader::Places::rows);
+    DecalReader reader(file.string(), textures, DecalReader::Form::npy);
     std::vector<std::string> names;
     for (const io::NpyRecords::Field& field : records.fields()) names.push_back(field.name);
     reader.read_header(names, 0);
     for (std::size_t row = 0; row < records.rows(); ++row) {
-        reader.begin_row(static_cast<std::uint32_t>(row));
-        for (std::size_t column = 0; column < names.size(); ++column) {
-            const io::NpyRecords::Field& field = records.fields()[column];
+        reader.begin_row(0);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const DecalColumn* column = reader.header()[i];
+            const io::NpyRecords::Field& field = records.fields()[i];
+            if (column == nullptr) continue;
             if (field.is_text())
-                reader.read_text(column, records.text(row, field));
+                reader.read_text(*column, records.text(row, field));
             else
-                reader.read_number(column, records.number(row, field));
+                reader.read_number(*column, records.number(row, field));
         }
         reader.end_row();
     }
     return reader.finish();
+}
+
+std::string csv_text(std::span<const DecalColumn* const> columns, const std::vector<Projector>& rows) {
+    std::string text;
+    for (const DecalColumn* column : columns)
+        text += (column == columns.front() ? "" : ",") + std::string(column->name);
+    for (const Projector& row : rows) {
+        text += '\n';
+        for (const DecalColumn* column : columns) {
+            if (column != columns.front()) text += ',';
+            io::append_csv_cell(text, column->write(row));
+        }
+    }
+    return text + '\n';
 }
 
 }  // namespace
 }  // namespace scene
 
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures) {
+    if (scene::is_toml(file)) return scene::load_decal_toml(file, textures);
     return io::NpyRecords::is(file) ? scene::load_npy(file, textures) : scene::load_csv(file, textures);
 }
 
@@ -88,16 +88,10 @@ void save_decals(const std::filesystem::path& file, const std::vector<Projector>
     for (const DecalColumn& column : decal_columns()) {
         const bool differs = std::ranges::any_of(
             rows, [&, usual = column.write(standard)](const Projector& row) { return column.write(row) != usual; });
-        if (differs || &column - decal_columns().data() < 3) used.push_back(&column);
-    }
-    std::string text;
-    for (const DecalColumn* column : used) text += (column == used.front() ? "" : ",") + std::string(column->name);
-    for (const Projector& row : rows) {
-        text += '\n';
-        for (const DecalColumn* column : used) text += (column == used.front() ? "" : ",") + column->write(row);
+        if (differs || &column < decal_columns().data() + kRequiredColumns) used.push_back(&column);
     }
     io::AtomicFile out(file);
-    out.write(text + '\n');
+    out.write(is_toml(file) ? decal_toml(used, rows) : csv_text(used, rows));
     out.commit();
 }
 

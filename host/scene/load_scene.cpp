@@ -60,13 +60,8 @@ toml::table parse_scene_file(const std::filesystem::path& file) {
             fmt::format("{}: is no text, so no scene (TOML); if it is an image, \"wrinkle info\" tells what it "
                         "holds",
                         name));
-    try {
-        toml::table values = toml::parse(std::string_view(text));
-        if (!values.empty()) return values;
-    } catch (const toml::parse_error& error) {
-        const toml::source_position at = error.source().begin;
-        throw Error(fmt::format("{}:{}:{}: not valid TOML: {}", name, at.line, at.column, error.description()));
-    }
+    toml::table values = parse_toml(text, name);
+    if (!values.empty()) return values;
     throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer] and [camera]", name));
 }
 

@@ -23,9 +23,9 @@ void read_decals(Table& table, Layer& layer) {
     if (table.has("textures") && bump.textures.empty() && !table.is_bad("textures"))
         table.complain("textures", "must list at least one { file = \"...\" }");
     table.require("file");
-    if (std::filesystem::path file; table.read_file("file", file) && !bump.textures.empty()) {
+    if (table.read_file("file", bump.file) && !bump.textures.empty()) {
         try {
-            bump.rows = std::make_shared<const std::vector<Projector>>(load_decals(file, bump.textures.size()));
+            bump.rows = std::make_shared<const std::vector<Projector>>(load_decals(bump.file, bump.textures.size()));
         } catch (const Error& error) { table.complain("file", fmt::format("cannot be used:\n{}", error.what())); }
     }
     read_weight(table, layer);

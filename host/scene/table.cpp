@@ -11,29 +11,6 @@
 namespace wrinkle::scene {
 namespace {
 
-/// A value as its author would recognise it.
-std::string describe(const toml::node& node) {
-    switch (node.type()) {
-        case toml::node_type::string:
-            return "the text " + quote(node.as_string()->get());
-        case toml::node_type::integer:
-            return fmt::format("{}", node.as_integer()->get());
-        case toml::node_type::boolean:
-            return node.as_boolean()->get() ? "true" : "false";
-        case toml::node_type::array:
-            return node.as_array()->is_array_of_tables() ? "an array of tables"
-                                                         : fmt::format("{} values in []", node.as_array()->size());
-        case toml::node_type::table:
-            return "a table";
-        case toml::node_type::floating_point: {
-            const std::string digits = fmt::format("{}", node.as_floating_point()->get());
-            return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
-        }
-        default:
-            return "a date or time";
-    }
-}
-
 std::string describe(const Range& range) {
     const std::string low = fmt::format("{} {}", range.low_is_allowed ? "at least" : "greater than", range.low);
     const std::string high = fmt::format("{} {}", range.high_is_allowed ? "at most" : "less than", range.high);

@@ -8,3 +8,17 @@
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace wrinkle::scene {
+
+/// `text` as TOML. Throws Error with line and column, `name` and what is wrong; `first_line` is that of the text.
+toml::table parse_toml(std::string_view text, const std::string& name, std::uint32_t first_line = 1);
+
+/// A value as its author would recognise it.
+std::string describe(const toml::node& node);
+
+}  // namespace wrinkle::scene

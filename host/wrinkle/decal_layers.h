@@ -62,6 +62,7 @@ struct Projector {
     double priority = 0;             ///< lower ones first; equal ones in the order of the table
     std::optional<double> object{};  ///< only pixels with this object index
     std::string cryptomatte{};       ///< only this object, by its coverage; name, or "#" and 8 hex digits
+    std::uint32_t line = 0;          ///< of the table's file, for messages; 0 in files without lines
 };
 
 /// Many decals. Those that add are independent of order; one that replaces takes g to g + (d - g) weight of what the
@@ -70,14 +71,15 @@ struct DecalsLayer {
     static constexpr const char* kind = "decals";
     std::vector<TextureUse> textures{};  ///< slopes are metres over metres, whatever their unit says
     std::shared_ptr<const std::vector<Projector>> rows{};
+    std::filesystem::path file{};  ///< that the rows are from, for messages; empty for rows made in code
 };
 
-/// Reads a table of decals: CSV, a row of column names, then a row a decal; or .npy, records with fields of these
-/// names; data/scenes/README.md lists them. Throws Error with the line (.npy: the row) and column of each mistake, the
-/// first 20 of them. `textures`: how many textures rows may name.
+/// Reads a table of decals: CSV, a row of column names, then a row a decal; TOML (.toml), a [[decal]] a row; or .npy,
+/// records with fields named as the columns of CSV are; data/scenes/README.md lists them. Throws Error with the line
+/// (.npy: the row) and column of each mistake, the first 20 of them. `textures`: how many textures rows may name.
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures);
 
-/// Writes one that load_decals reads back to the same numbers.
+/// Writes one that load_decals reads back to the same numbers: TOML if it is named .toml, else CSV.
 void save_decals(const std::filesystem::path& file, const std::vector<Projector>& rows);
 
 }  // namespace wrinkle

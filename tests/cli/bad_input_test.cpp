@@ -77,6 +77,13 @@ TEST(BadScene, UnknownCryptomatteNamesListTheKnownOnes) {
     const Workplace place;
     place.write_scene(tilt + "mask = { cryptomatte = \"Susanne\" }");
     expect_refused(place, {"tilt", "Susanne", "Ground", "Rock", "Suzanne", "Torus", "Wall"});
+    fs::create_directory(place / "tables");
+    write_text(place / "tables/wear.csv", "x,y,z,cryptomatte\n0,0,0,Rock\n0,0,0,Susanne\n");
+    place.write_scene(on("decals", "file = \"tables/wear.csv\"\ntextures = [{ file = \"" +
+                                       Workplace::data_file("textures/seal_height.png") + "\" }]"));
+    expect_refused(place, {"scene.toml:", "tables/wear.csv:3: ", "\"Susanne\"", "nearest: \"Suzanne\""});
+    write_text(place / "tables/wear.csv", "x,y,z\n0,0,0,0\n");
+    expect_refused(place, {"scene.toml:", "\n", "tables/wear.csv:2: has 4 fields"});
 }
 
 TEST(BadScene, NumbersKeysAndFiles) {
@@ -119,6 +126,11 @@ TEST(BadTexture, ChannelsAndTexels) {
     write_text(place / "cut.png", whole.substr(0, whole.size() / 2));
     expect_texture_refused("normal_map", "cut.png", {"cut.png: the PNG is truncated"});
     expect_texture_refused("height_map", "nowhere.png", {"nowhere.png"});
+    place.write_scene(tilt + "mask = { texture = \"broken.exr\" }\n" + on("height_map", "texture = \"two.exr\""));
+    expect_refused(place, {"scene.toml:", "layer \"tilt\": ", "broken.exr", "NaN"});
+    write_text(place / "wear.csv", "x,y,z,s1\n0,0,0,0.5\n");
+    place.write_scene(on("decals", "file = \"wear.csv\"\ntextures = [{ file = \"cut.png\" }]"));
+    expect_refused(place, {"scene.toml:", "layer \"weave\": ", "cut.png: the PNG is truncated"});
 }
 
 TEST(BadOutput, FolderCannotBeMadeOrWritten) {

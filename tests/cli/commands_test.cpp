@@ -101,6 +101,23 @@ TEST(Commands, RunWritesPictures) {
     EXPECT_EQ(place.files("out").size(), 4u) << "no leftovers beside the pictures";
 }
 
+TEST(Commands, RunWarnsOfMasksThatNoPixelMatches) {
+    const Workplace place;
+    place.write_scene(tilt + "mask = { object = 77 }\n");
+    const Ran told = place.run("run scene.toml");
+    EXPECT_EQ(told.code, 0) << told.err;
+    EXPECT_EQ(told.err,
+              "wrinkle: warning: scene.toml:5: layer \"tilt\": no pixel has object 77; the frame has 0, 1, 2, 3, 4, "
+              "5\n");
+    EXPECT_EQ(place.run("run scene.toml --quiet").err, "");
+    const auto report = nlohmann::json::parse(place.run("run scene.toml --json").out);
+    EXPECT_EQ(report["warnings"].size(), 1u);
+    place.write_scene(tilt + "mask = { cryptomatte = \"#00c0ffee\" }\n");
+    expect_mentions(place.run("run scene.toml").err, {"no pixel has the Cryptomatte object \"#00c0ffee\"", "Suzanne"});
+    place.write_scene(tilt + "mask = { object = 3, cryptomatte = \"Suzanne\" }\n");
+    EXPECT_EQ(place.run("run scene.toml").err, "");
+}
+
 TEST(Commands, RunPassesChannelsThrough) {
     const Workplace place;
     place.write_scene(tilt + "[output]\npassthrough = true\nmarked = true\npng = false\n");

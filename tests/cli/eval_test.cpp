@@ -54,7 +54,7 @@ TEST(Eval, MissingColumnsAreNamedWithTheNearestOnes) {
     expect_failed(place.run("eval resolve --in in.csv"),
                   {"resolve", "in.csv", "\"n.z\"; did you mean \"nz\"", "\"g.z\""});
     write_text(place / "in.csv", "n.x;n.y;n.z\n0;0;1\n");
-    expect_failed(place.run("eval resolve --in in.csv"), {"separated by commas"});
+    expect_failed(place.run("eval resolve --in in.csv"), {"in.csv:1: separated by ';': save with commas"});
 }
 
 TEST(Eval, BadCellsAreNamedAndNothingIsWritten) {

@@ -1,5 +1,6 @@
 // wrinkle scatter: decals on a frame, from the command line.
 #include "tests/cli/cli.h"
+#include "wrinkle/scene.h"
 
 namespace wrinkle::test {
 namespace {
@@ -18,6 +19,16 @@ TEST(Scatter, WritesATableThatASceneCanUse) {
     place.write_scene("[[layer]]\nkind = \"decals\"\nfile = \"d.csv\"\ntextures = [{ file = \"" +
                       Workplace::data_file("textures/seal_height.png") + "\" }]\n");
     EXPECT_EQ(place.run("explain scene.toml --no-source").code, 0);
+    const std::string arguments = " --count 20 --shapes sphere cone --opacity 0.5 --replace";
+    EXPECT_EQ(place.run("scatter scene.toml -o d.toml" + arguments).code, 0);
+    const auto rows = load_decals(place / "d.csv", 1), same = load_decals(place / "d.toml", 1);
+    ASSERT_EQ(same.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(same[i].center, rows[i].center);
+        EXPECT_EQ(same[i].axis_x, rows[i].axis_x);
+        EXPECT_EQ(same[i].half_size, rows[i].half_size);
+        EXPECT_EQ(same[i].shape, rows[i].shape);
+    }
 }
 
 TEST(Scatter, TakesTheGeometryThatTheSceneNames) {

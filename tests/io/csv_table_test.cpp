@@ -27,11 +27,12 @@ TEST(CsvTable, HasCellsByRowAndColumn) {
 }
 
 TEST(CsvTable, TakesWhatSpreadsheetsWrite) {
-    for (const char* text : {"a,b\r\n1,2\r\n3,4",
-                             "\xef\xbb\xbf"
-                             "a,b\n1,2\n3,4\n",
-                             "\"a\",\"b\"\n\"1\",\"2\"\n\"3\",\"4\"\n", " a , b \n 1 ,\t2\n3,  4 \n", "a,b\r1,2\r3,4\r",
-                             "\na,b\n\n1,2\n  \n3,4\n\n", "a,b\n+1,2e0\n3,.4e1\n"}) {
+    for (const char* text :
+         {"a,b\r\n1,2\r\n3,4",
+          "\xef\xbb\xbf"
+          "a,b\n1,2\n3,4\n",
+          "\"a\",\"b\"\n\"1\",\"2\"\n\"3\",\"4\"\n", " a , b \n 1 ,\t2\n3,  4 \n", "a,b\t\n1,2\n3,4\n",
+          "a,b\r1,2\r3,4\r", "\na,b\n\n1,2\n  \n3,4\n\n", "a,b\n+1,2e0\n3,.4e1\n"}) {
         const CsvTable table(text, "in.csv");
         EXPECT_EQ(table.numbers<double>("a"), (std::vector<double>{1, 3})) << text;
         EXPECT_EQ(table.numbers<double>("b"), (std::vector<double>{2, 4})) << text;
@@ -60,6 +61,10 @@ TEST(CsvTable, RefusesRaggedRowsAndEmptyText) {
     EXPECT_EQ(message_of("a,b\n1,\"2\n3,4\n"), "in.csv:2: a quote is not closed");
     EXPECT_EQ(message_of("a,b\n1,2\n5\" pipe,4\n"), "in.csv:3: a quote within a cell; quote the cell and double it");
     EXPECT_NE(message_of(std::string_view("a\0b", 3)).find("zero bytes"), std::string::npos);
+    EXPECT_EQ(message_of("a;b\n1,5;2\n"),
+              "in.csv:1: separated by ';': save with commas between columns, and points in numbers");
+    EXPECT_NE(message_of("\n\"a\";\"b\"\n").find("in.csv:2: separated by ';'"), std::string::npos);
+    EXPECT_NE(message_of("a\tb\n1\t2\n").find("in.csv:1: separated by tabs"), std::string::npos);
     EXPECT_EQ(message_of("a,c\n1,2\n"), "in.csv has no column \"b\"");
     EXPECT_EQ(message_of("b,b\n1,2\n"), "in.csv has two columns \"b\"");
     EXPECT_EQ(CsvTable("a,b\n", "in.csv").rows(), 0u);

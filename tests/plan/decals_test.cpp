@@ -58,9 +58,26 @@ TEST(PlanOfDecals, RowsOfATableBringTheirMasksAndRegions) {
     EXPECT_EQ(plan.textures[1].region, rows[2].region);
     EXPECT_TRUE(plan.tables[0].images[2].height && !plan.tables[0].images[3].height);
     rows[1].cryptomatte = "Rok";
-    expect_mentions(refusal(scene_of({table(rows, "wear")}), everything()), {"wear", "\"Rok\""});
+    rows[1].line = 12;
+    Layer wear = table(rows, "wear");
+    expect_mentions(refusal(scene_of({wear}), everything()), {"layer \"wear\": row 1 ", "\"Rok\""});
+    std::get<DecalsLayer>(wear.bump).file = "shots/decals.csv";
+    expect_mentions(refusal(scene_of({wear}), everything()), {"layer \"wear\": shots/decals.csv:12 ", "\"Rok\""});
     rows[3].texture = 2;
     expect_mentions(refusal(scene_of({table(rows)}), everything()), {"texture 2", "has 2"});
+}
+
+TEST(PlanOfDecals, TexturesKnowTheFirstLayerThatUsesThem) {
+    Layer masked = layer(ConstantLayer{}, "masked");
+    masked.location = "scene.toml:9";
+    masked.mask.texture = MaskTexture{.file = "dirt.png"};
+    const Plan plan = make_plan(
+        scene_of({layer(normal_map(), "cloth"), layer(normal_map(), "again"), masked, table({Projector{}}, "wear")}),
+        everything());
+    ASSERT_EQ(plan.textures.size(), 3u);
+    EXPECT_EQ(plan.textures[0].layer, "layer \"cloth\"");
+    EXPECT_EQ(plan.textures[1].layer, "scene.toml:9: layer \"masked\"");
+    EXPECT_EQ(plan.textures[2].layer, "layer \"wear\"");
 }
 
 TEST(PlanOfDecals, ARegionIsNoTextureForOtherLayers) {

@@ -4,7 +4,7 @@
 #include <ctime>
 #include <limits>
 
-#include "tests/scene/scene_folder.h"
+#include "tests/scene/decal_forms.h"
 
 namespace wrinkle {
 namespace {
@@ -49,46 +49,28 @@ Records position(const std::string& more, std::size_t rows = 1) {
     return Records(kPosition + (more.empty() ? "" : ", " + more), rows).put(0.1).put(2.5f).put(-3.0);
 }
 
-class DecalRecords : public SceneFolder {
+class DecalRecords : public DecalFolder {
 protected:
-    std::vector<Projector> read(const std::string& bytes) const { return load_decals(write("decals.npy", bytes), 2); }
+    std::vector<Projector> read(const std::string& bytes) const { return DecalFolder::read("decals.npy", bytes); }
     void expect_refused(const std::string& bytes, const std::vector<std::string>& parts) const {
-        std::string message = "nothing was refused";
-        try {
-            read(bytes);
-        } catch (const Error& error) { message = error.what(); }
-        for (const std::string& part : parts)
-            EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+        DecalFolder::expect_refused("decals.npy", bytes, parts);
     }
 };
 
 TEST_F(DecalRecords, HoldNumbersAndTextOfEveryType) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    Records table(
-        kPosition +
-            ", ('shape', '<U6'), ('texture', '|u1'), ('', '|V3'), ('two_sided', '|b1'), "
-            "('object', '<f4'), ('mode', '|S7'), ('priority', '<i2'), ('cryptomatte', '|S4'), ('angle_zero', '<i8')",
-        2);
-    table.put(0.1).put(2.5f).put(-3e-1).wide_text(U"cone", 6).put(std::uint8_t{1}).text("pad", 3).put(true);
-    table.put(3.0f).text("replace", 7).put(std::int16_t{-7}).text("", 4).put(std::int64_t{90});
+    Records table(kPosition +
+                      ", ('shape', '<U6'), ('texture', '|u1'), ('', '|V3'), ('two_sided', '|b1'), ('object', '<f4'), "
+                      "('mode', '|S7'), ('priority', '<i2'), ('cryptomatte', '|S4'), ('angle_full', '<u2'), "
+                      "('angle_zero', '<i8'), ('half_x', '<f4'), ('wrap', '|S5')",
+                  2);
+    table.put(1.0).put(2.5f).put(-3e-1).wide_text(U"cone", 6).put(std::uint8_t{1}).text("pad", 3).put(true);
+    table.put(3.0f).text("replace", 7).put(std::int16_t{-7}).text("", 4).put(std::uint16_t{10});
+    table.put(std::int64_t{60}).put(0.25f).text("tile", 5);
     table.put(4.0).put(5.0f).put(6.0).wide_text(U"", 6).put(std::uint8_t{0}).text("pad", 3).put(false);
-    table.put(nan).text("", 7).put(std::int16_t{0}).text("Rock", 4).put(std::int64_t{80});
-    const auto rows = read(table.bytes());
-    ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(rows[0].center, (Vec3{0.1, 2.5, -0.3}));
-    EXPECT_EQ(rows[0].shape, ProjectorShape::cone);
-    EXPECT_EQ(rows[0].texture, 1u);
-    EXPECT_TRUE(rows[0].two_sided);
-    EXPECT_EQ(rows[0].object, 3);
-    EXPECT_EQ(rows[0].mode, ProjectorMode::replace);
-    EXPECT_EQ(rows[0].priority, -7);
-    EXPECT_TRUE(rows[0].cryptomatte.empty());
-    EXPECT_NEAR(rows[0].angle_fade[0], 0, 1e-15);
-    EXPECT_EQ(rows[1].center, (Vec3{4, 5, 6}));
-    EXPECT_EQ(rows[1].shape, ProjectorShape::box);
-    EXPECT_FALSE(rows[1].two_sided);
-    EXPECT_FALSE(rows[1].object);
-    EXPECT_EQ(rows[1].cryptomatte, "Rock");
+    table.put(nan).text("", 7).put(std::int16_t{0}).text("Rock", 4).put(std::uint16_t{10});
+    table.put(std::int64_t{60}).put(0.5f).text("", 5);
+    expect_two_decals(read(table.bytes()));
 }
 
 TEST_F(DecalRecords, NameRowAndColumnOfAMistake) {
@@ -164,6 +146,8 @@ TEST_F(DecalRecords, AHundredThousandRowsLoadInHalfASecond) {
     save_decals(folder_ / "many.csv", rows);
     const double csv = seconds_to_load(folder_ / "many.csv", count);
     const double npy = seconds_to_load(write("many.npy", records.bytes()), count);
+    save_decals(folder_ / "many.toml", rows);
+    seconds_to_load(folder_ / "many.toml", count);
 #ifdef NDEBUG
     EXPECT_LT(csv, 0.5);
     EXPECT_LT(npy, 0.5);

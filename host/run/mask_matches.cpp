@@ -1,0 +1,135 @@
+#include "run/mask_matches.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "plan/section.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr std::size_t kMostListed = 16;
+
+/// Both zeros are one label.
+std::uint32_t label_of(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    return bits == 0x80000000u ? 0 : bits;
+}
+
+std::string listed(const std::vector<std::string>& names, bool more) {
+    return fmt::format("{}{}", fmt::join(names, ", "), more ? ", ..." : "");
+}
+
+}  // namespace
+
+MaskMatches::MaskMatches(const Scene& scene) {
+    for (const Layer& layer : scene.layers) {
+        const std::size_t number = layers_.size();
+        layers_.push_back(layer_label(layer));
+        if (layer.mask.object && !layer.mask.invert) wanted_.push_back({.layer = number, .index = *layer.mask.object});
+        if (layer.mask.cryptomatte && !layer.mask.invert)
+            wanted_.push_back({.layer = number, .name = *layer.mask.cryptomatte});
+        const auto* table = std::get_if<DecalsLayer>(&layer.bump);
+        if (table == nullptr || !table->rows) continue;
+        std::set<std::pair<std::string, double>> known;
+        for (std::size_t i = 0; i < table->rows->size(); ++i) {
+            const Projector& row = table->rows->at(i);
+            if (!row.object && row.cryptomatte.empty()) continue;
+            if (known.emplace(row.cryptomatte, row.object.value_or(0)).second)
+                wanted_.push_back({.layer = number,
+                                   .name = row.cryptomatte,
+                                   .index = row.object.value_or(0),
+                                   .place = row_place(*table, i)});
+        }
+    }
+}
+
+void MaskMatches::begin(const Frame& frame) {
+    objects_.unseen.clear(), ids_.unseen.clear();
+    for (const auto& [name, id] : frame.cryptomatte) names_.emplace(id, name);
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        const Wanted& wanted = wanted_[i];
+        if (wanted.seen) continue;
+        if (wanted.name.empty())
+            objects_.unseen[label_of(static_cast<float>(wanted.index))].push_back(i);
+        else if (const auto id = frame.cryptomatte.find(wanted.name); id != frame.cryptomatte.end())
+            ids_.unseen[id->second].push_back(i);
+    }
+}
+
+void MaskMatches::look(Labels& labels, const float* values, const float* coverages, std::size_t pixels) {
+    std::uint32_t last = 0;
+    bool any = false;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::uint32_t label = label_of(values[i]);
+        if ((any && label == last) || (coverages != nullptr && !(coverages[i] > 0))) continue;
+        last = label, any = true;
+        if (std::ranges::find(labels.shown, label) == labels.shown.end()) {
+            labels.more = labels.shown.size() == kMostListed;
+            if (!labels.more) labels.shown.push_back(label);
+        }
+        const auto found = labels.unseen.find(label);
+        if (found == labels.unseen.end()) continue;
+        for (const std::size_t wanted : found->second) wanted_[wanted].seen = true;
+        labels.unseen.erase(found);
+        if (labels.unseen.empty()) return;
+    }
+}
+
+void MaskMatches::see(const std::map<std::string, const float*>& planes, std::size_t pixels) {
+    if (const auto object = planes.find("object"); object != planes.end() && !objects_.unseen.empty())
+        look(objects_, object->second, nullptr, pixels);
+    for (int rank = 0; !ids_.unseen.empty(); ++rank) {
+        const auto id = planes.find(fmt::format("crypto.id{}", rank));
+        const auto coverage = planes.find(fmt::format("crypto.coverage{}", rank));
+        if (id == planes.end() || coverage == planes.end()) return;
+        look(ids_, id->second, coverage->second, pixels);
+    }
+}
+
+std::string MaskMatches::shown(const Labels& labels, bool names) const {
+    std::vector<std::string> texts;
+    std::vector<float> indices;
+    for (const std::uint32_t label : labels.shown) {
+        if (!names)
+            indices.push_back(std::bit_cast<float>(label));
+        else if (const auto name = names_.find(label); name != names_.end())
+            texts.push_back(name->second);
+        else
+            texts.push_back(fmt::format("#{:08x}", label));
+    }
+    std::ranges::sort(indices);
+    std::ranges::sort(texts);
+    for (const float index : indices) texts.push_back(fmt::format("{}", index));
+    return texts.empty() ? "nothing" : listed(texts, labels.more);
+}
+
+std::vector<std::string> MaskMatches::warnings() const {
+    std::vector<std::string> lines;
+    for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+        std::string line;
+        for (const bool names : {false, true}) {
+            std::vector<std::string> missing;
+            std::size_t count = 0;
+            for (const Wanted& wanted : wanted_) {
+                if (wanted.layer != layer || wanted.seen || wanted.name.empty() == names) continue;
+                if (++count > kMostListed) continue;
+                missing.push_back(names ? "\"" + wanted.name + "\"" : fmt::format("{}", wanted.index));
+                if (!wanted.place.empty()) missing.back() += fmt::format(" ({})", wanted.place);
+            }
+            if (missing.empty()) continue;
+            line += fmt::format("{}no pixel has {} {}; the frame has {}", line.empty() ? "" : "; ",
+                                names ? "the Cryptomatte object" : "object", listed(missing, count > kMostListed),
+                                shown(names ? ids_ : objects_, names));
+        }
+        if (!line.empty()) lines.push_back(layers_[layer] + ": " + line);
+    }
+    return lines;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+/// Finds out, while the planes of frames are read, which objects that masks and decals name no pixel shows.
+class MaskMatches {
+public:
+    /// Takes what the scene's masks and tables of decals name. An inverted mask may well match nothing.
+    explicit MaskMatches(const Scene& scene);
+
+    /// The frame whose rows come next; its Cryptomatte has a hash for every name of the scene.
+    void begin(const Frame& frame);
+    /// Pixels as they were read: planes by name, of which object and crypto.* count.
+    void see(const std::map<std::string, const float*>& planes, std::size_t pixels);
+    /// A line for each layer that names objects which no pixel of any frame showed, with what the frames show.
+    std::vector<std::string> warnings() const;
+
+private:
+    struct Wanted {
+        std::size_t layer = 0;
+        std::string name{};  ///< Cryptomatte; empty: an index
+        double index = 0;
+        std::string place{};  ///< the first row that names it; empty: the layer's mask
+        bool seen = false;
+    };
+    /// Labels of pixels by their bits: object indices, or ids of Cryptomatte.
+    struct Labels {
+        std::unordered_map<std::uint32_t, std::vector<std::size_t>> unseen{};  ///< which of wanted_ each is
+        std::vector<std::uint32_t> shown{};                                    ///< the first ones of the frames
+        bool more = false;                                                     ///< than those
+    };
+
+    void look(Labels& labels, const float* values, const float* coverages, std::size_t pixels);
+    std::string shown(const Labels& labels, bool names) const;
+
+    std::vector<std::string> layers_;  ///< labels
+    std::vector<Wanted> wanted_;
+    Labels objects_, ids_;
+    std::map<std::uint32_t, std::string> names_;  ///< of ids, as the frames know them
+};
+
+}  // namespace wrinkle
