@@ -116,7 +116,7 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
 {}                if (!wr_any(weight != 0)) continue;
                 wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
                 real lod = {};
-                sum = wr_projector_blend(decal, in, wr_projector_slope(t, decal, in, lod), weight, sum);
+                sum = wr_projector_blend(decal, in, wr_projector_slope(t, decal, in, lod, weight != 0), weight, sum);
             }}
         }}
         dh_dp = wr_fma(sum, m, dh_dp);
