@@ -224,6 +224,7 @@ void measure_decals(const Device& device, Size size, bool quick, Run& run) {
             Measurement m = measured("decals", e.name, contenders[i], kernel ? device.info.lanes : 0, pixels);
             m.bytes = whole ? plan.bytes : 0;
             m.operations = whole ? operations_of(plan) * e.coverage.per_pixel : 0;
+            m.at_most = true;
             m.error = error;
             if (i == e.first + 3) {
                 contenders[i].work();

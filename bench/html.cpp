@@ -21,10 +21,10 @@ std::string inner_svg(const std::string& svg) {
 std::string row(const Run& run, const Measurement& m) {
     std::string speed = "<td colspan=4>not timed</td>";
     if (m.seconds.median > 0)
-        speed = fmt::format("<td>{:.2f}</td><td>{:.1f}%</td><td>{:.0f}%</td><td>{}</td>", m.ns_per_pixel(),
-                            100 * m.seconds.spread, 100 * m.gb_per_s() / run.ceilings.copy_gb_s,
-                            m.operations > 0 ? fmt::format("{:.0f}%", 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s)
-                                             : std::string("-"));
+        speed = fmt::format(
+            "<td>{:.2f}</td><td>{:.1f}%</td><td>{:.0f}%</td><td>{}</td>", m.ns_per_pixel(), 100 * m.seconds.spread,
+            100 * m.gb_per_s() / run.ceilings.copy_gb_s,
+            m.counted() ? fmt::format("{:.0f}%", 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s) : std::string("-"));
     std::string hard;
     for (const auto& [category, e] : m.hard)
         hard += fmt::format("{}{}: {:.1e}, {:.1e}, {:.1e}{}", hard.empty() ? "" : "<br>", escaped(category), e.median,

@@ -33,6 +33,7 @@ json measurement_json(const Measurement& m) {
             {"ns_per_pixel", m.ns_per_pixel()},
             {"bytes_per_pixel", m.bytes},
             {"operations_per_pixel", m.operations},
+            {"operations_at_most", m.at_most},
             {"error_unit", m.unit},
             {"error", stats_json(m.error)},
             {"error_hard", hard},
@@ -50,6 +51,7 @@ Measurement measurement_of(const json& j) {
     m.error = stats_of(j.at("error"));
     for (const auto& [category, stats] : j.at("error_hard").items()) m.hard[category] = stats_of(stats);
     m.bound = j.at("documented_error"), m.hash = j.at("hash"), m.memory = j.value("memory_bytes", 0.0);
+    m.at_most = j.value("operations_at_most", false);
     if (j.contains("figures")) m.figures = j.at("figures");
     return m;
 }

@@ -20,6 +20,7 @@ struct Measurement {
     Timing seconds{};                          ///< of the whole of `pixels`
     double bytes = 0;                          ///< moved per pixel, each plane once
     double operations = 0;                     ///< floating-point operations per pixel; 0: not counted
+    bool at_most = false;                      ///< operations are those of a pixel that skips nothing
     std::string unit = "degrees";              ///< of the errors
     ErrorStats error{};                        ///< on regular inputs
     std::map<std::string, ErrorStats> hard{};  ///< by category
@@ -30,6 +31,7 @@ struct Measurement {
 
     double ns_per_pixel() const { return seconds.median / static_cast<double>(pixels) * 1e9; }
     double gb_per_s() const { return bytes * static_cast<double>(pixels) / seconds.median * 1e-9; }
+    bool counted() const { return operations > 0 && !at_most; }
     double gflop_per_s() const { return operations * static_cast<double>(pixels) / seconds.median * 1e-9; }
     /// What tells measurements of two runs apart.
     std::string key() const;

@@ -43,9 +43,11 @@ std::string csv(const Run& run) {
         const auto row = [&](const std::string& inputs, const ErrorStats& e) {
             text += fmt::format("{},\"{}\",\"{}\",{},{},", m.group, m.name, m.variant, m.lanes, m.pixels);
             if (timed)
-                text += fmt::format("{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g},", m.ns_per_pixel(), m.seconds.spread,
-                                    m.gb_per_s(), m.gb_per_s() / run.ceilings.copy_gb_s, m.gflop_per_s(),
-                                    m.gflop_per_s() / run.ceilings.fma_gflop_s);
+                text += fmt::format("{:.4g},{:.3g},{:.4g},{:.3g},{},", m.ns_per_pixel(), m.seconds.spread, m.gb_per_s(),
+                                    m.gb_per_s() / run.ceilings.copy_gb_s,
+                                    m.counted() ? fmt::format("{:.4g},{:.3g}", m.gflop_per_s(),
+                                                              m.gflop_per_s() / run.ceilings.fma_gflop_s)
+                                                : ",");
             else
                 text += ",,,,,,";
             text += fmt::format("{},\"{}\",{:.4g},{:.4g},{:.4g},{},{},{:.3g},{:.0f},{}\n", m.unit, inputs, e.median,
@@ -86,6 +88,11 @@ void print_bars(const Run& run) {
                    100 * b.spread, b.at_most ? "<=" : ">=", b.limit, b.verdict, b.of_p99, b.to_p99, b.unit);
 }
 
+/// "41%" of the ceiling of multiply-adds, where operations are counted.
+std::string fma_share(const Run& run, const Measurement& m) {
+    return m.counted() ? fmt::format("{:.0f}%", 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s) : "-";
+}
+
 }  // namespace
 
 void print(const Run& run) {
@@ -97,13 +104,13 @@ void print(const Run& run) {
     for (const Measurement& m : run.measurements) {
         if (m.group != group) {
             group = m.group;
-            fmt::print("\n{:<35}{:<22}{:>6}{:>10}{:>8}{:>7}{:>7}   {:>9}{:>9}{:>9}{:>9}{:>5}  {}\n", group, "", "lanes",
+            fmt::print("\n{:<43}{:<24}{:>6}{:>10}{:>8}{:>7}{:>7}   {:>9}{:>9}{:>9}{:>9}{:>5}  {}\n", group, "", "lanes",
                        "ns/pixel", "spread", "copy", "fma", "median", "p99", "max", "hard", "inf", "error in");
         }
-        fmt::print("  {:<33}{:<22}{:>6}", m.name, m.variant, m.lanes);
+        fmt::print("  {:<41}{:<24}{:>6}", m.name, m.variant, m.lanes);
         if (m.seconds.median > 0)
-            fmt::print("{:>10.2f}{:>7.1f}%{:>6.0f}%{:>6.0f}%", m.ns_per_pixel(), 100 * m.seconds.spread,
-                       100 * m.gb_per_s() / run.ceilings.copy_gb_s, 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s);
+            fmt::print("{:>10.2f}{:>7.1f}%{:>6.0f}%{:>7}", m.ns_per_pixel(), 100 * m.seconds.spread,
+                       100 * m.gb_per_s() / run.ceilings.copy_gb_s, fma_share(run, m));
         else
             fmt::print("{:>10}{:>8}{:>7}{:>7}", "-", "-", "-", "-");
         fmt::print("   {:>9.1e}{:>9.1e}{:>9.1e}{:>9.1e}{:>5}  {}{}\n", m.error.median, m.error.p99, m.error.max,
