@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "plan/layer_text.h"
 #include "wrinkle/error.h"
@@ -44,6 +45,18 @@ bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
            (emitter.has("tangent_sign") || emitter.has("bitangent.z"));
 }
 
+/// Unit axis along which a planar mapping projects.
+Vec3 plane_axis(const UvMapping& uv) {
+    Vec3 axis{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        axis[i] = uv.axis_u[j] * uv.axis_v[k] - uv.axis_u[k] * uv.axis_v[j];
+    }
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    for (double& part : axis) part /= length;
+    return axis;
+}
+
 std::string emit_taps(LayerText& at, const HeightMapLayer& l) {
     if (l.texture.wrap == Wrap::clamp) throw Error(at.who + ": upscale = \"taps\" repeats; wrap must not be \"clamp\"");
     at.section.operations += kTaps;
@@ -66,6 +79,8 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
     } else {
         text += fmt::format("        wr_frame_tb f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
         at.section.operations += kFrame;
+        if (l.uv.source == UvSource::planar)
+            text += fmt::format("        m = wr_has_planar_frame(n, {}) ? m : (real)(0);\n", literal(plane_axis(l.uv)));
     }
     const char* frame = planes ? "vertex_tb" : "f";
     if (l.combine == Combine::surface_gradient)

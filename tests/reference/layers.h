@@ -55,7 +55,7 @@ LayerFunction<T> make_layer(const NormalMapLayer& layer, bool footprint, SceneTe
                     {}};
         }
         const TangentFrame<T> frame = tangent_frame(s.normal, s.d.dp_dx, s.d.dp_dy, at->d);
-        if (frame.degenerate) return {};
+        if (frame.degenerate || edge_on(layer.uv, s.normal)) return {};
         return {surface_gradient_from_tbn(texture.slope(*at, footprint), frame.tangent, frame.bitangent), {}};
     };
 }

@@ -30,6 +30,13 @@ TexCoord<T> linear_coordinates(const F& st, Vec<T> point, const ScreenDerivative
     return {st(point), {st(d.dp_dx), st(d.dp_dy)}};
 }
 
+/// Whether a planar mapping sees a surface edge on, to a cosine of 1e-6: then it gives no tangent frame.
+template <class T>
+bool edge_on(const UvMapping& m, Vec<T> n) {
+    const Vec<T> axis = cross(from_array<T>(m.axis_u), from_array<T>(m.axis_v));
+    return m.source == UvSource::planar && std::abs(dot(n, axis)) <= T(1e-6L) * length(n) * length(axis);
+}
+
 /// (s,t) = R(rotation) (scale (u,v)) + offset, and its derivatives; nothing where the UV plane has none.
 template <class T>
 std::optional<TexCoord<T>> map_coordinates(const UvMapping& m, const Surfel<T>& s) {
