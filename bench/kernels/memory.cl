@@ -1,8 +1,6 @@
 // Ceilings and the barest of passes, with the best stores there are.
 #define WR_FEW_OUTPUTS
-#include "lanes.clh"
-#include "vec.clh"
-#include "compose/resolve.clh"
+#include "wrinkle.clh"
 
 kernel void wr_copy(global const float *restrict x, global const float *restrict y, global const float *restrict z,
                     global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,

@@ -1,10 +1,6 @@
 // Noise against noise: value and gradient, the same by differences, values alone. WR_OCTAVES of each, summed.
 #define WR_FEW_OUTPUTS
-#include "lanes.clh"
-#include "vec.clh"
-#include "sources/noise_table.clh"
-#include "sources/noise_lookup.clh"
-#include "sources/noise.clh"
+#include "wrinkle.clh"
 
 #define WR_OCTAVES 8
 
@@ -65,17 +61,17 @@ wr_fn real wr_hashed_noise(vec3 p)
         wr_store(gradient.z, out_z, at);                                                                     \
     }
 
-WR_NOISE_KERNEL(wr_value_and_gradient, wr_field f = wr_perlin_noise(q); value += f.value;
+WR_NOISE_KERNEL(wr_value_and_gradient, wr_field f = wr_perlin_noise(wr_lattice_at(q)); value += f.value;
                 gradient = wr_add(gradient, f.gradient);)
-WR_NOISE_KERNEL(wr_value_by_table, value += wr_perlin_noise(q).value;)
+WR_NOISE_KERNEL(wr_value_by_table, value += wr_perlin_noise(wr_lattice_at(q)).value;)
 WR_NOISE_KERNEL(wr_value_by_hash, value += wr_hashed_noise(q);)
 
 #define WR_STEP WR_R(0.0078125)
 #define WR_MOVED(dx, dy, dz) wr_add(q, wr_v3((real)(dx), (real)(dy), (real)(dz)))
-WR_NOISE_KERNEL(wr_forward_by_table, real f = wr_perlin_noise(q).value; value += f;
-                gradient.x += (wr_perlin_noise(WR_MOVED(WR_STEP, 0, 0)).value - f) / WR_STEP;
-                gradient.y += (wr_perlin_noise(WR_MOVED(0, WR_STEP, 0)).value - f) / WR_STEP;
-                gradient.z += (wr_perlin_noise(WR_MOVED(0, 0, WR_STEP)).value - f) / WR_STEP;)
+WR_NOISE_KERNEL(wr_forward_by_table, real f = wr_perlin_noise(wr_lattice_at(q)).value; value += f;
+                gradient.x += (wr_perlin_noise(wr_lattice_at(WR_MOVED(WR_STEP, 0, 0))).value - f) / WR_STEP;
+                gradient.y += (wr_perlin_noise(wr_lattice_at(WR_MOVED(0, WR_STEP, 0))).value - f) / WR_STEP;
+                gradient.z += (wr_perlin_noise(wr_lattice_at(WR_MOVED(0, 0, WR_STEP))).value - f) / WR_STEP;)
 WR_NOISE_KERNEL(wr_forward_by_hash, real f = wr_hashed_noise(q); value += f;
                 gradient.x += (wr_hashed_noise(WR_MOVED(WR_STEP, 0, 0)) - f) / WR_STEP;
                 gradient.y += (wr_hashed_noise(WR_MOVED(0, WR_STEP, 0)) - f) / WR_STEP;

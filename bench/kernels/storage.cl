@@ -1,9 +1,7 @@
 // Resolve from G-buffers stored in fewer bytes: what a byte saved costs in degrees. wr_resolve_only of memory.cl reads
 // floats.
 #define WR_FEW_OUTPUTS
-#include "lanes.clh"
-#include "vec.clh"
-#include "compose/resolve.clh"
+#include "wrinkle.clh"
 
 #if WR_LANES == 1
 #define wr_load_half(plane, at) vload_half(at, plane)

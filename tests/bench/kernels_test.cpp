@@ -1,0 +1,26 @@
+// bench/kernels: every file builds, on every number of lanes, with the kernels as they are now.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "device/program.h"
+
+namespace wrinkle::bench {
+namespace {
+
+TEST(BenchKernels, Build) {
+    const Device device = Device::open();
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(WRINKLE_SOURCE_DIR "/bench/kernels")) {
+        std::ifstream in(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        for (const int lanes : {1, 4, 8, 16})
+            EXPECT_NO_THROW(build_program(device, text, {lanes, false})) << entry.path() << ", " << lanes << " lanes";
+        ++files;
+    }
+    EXPECT_GE(files, 4u);
+}
+
+}  // namespace
+}  // namespace wrinkle::bench
