@@ -64,7 +64,7 @@ std::string pareto(const std::string& name, const std::vector<const Measurement*
 std::string roofline(const Run& run) {
     std::string data = "$all << EOD\n";
     for (const Measurement& m : run.measurements)
-        if (m.seconds.median > 0 && m.counted() && m.lanes > 0 && m.variant != "double" && m.group != "start")
+        if (m.seconds.median > 0 && m.counted() && m.lanes > 0 && m.variant != "double")
             data += fmt::format("{:.6g} {:.6g} {}\n", m.operations / m.bytes, m.gflop_per_s(),
                                 quoted(m.name + (m.group == "function" || m.group == "layer" ? "" : ": " + m.variant)));
     return data +

@@ -9,6 +9,7 @@
 #include "contests.h"
 #include "error.h"
 #include "resident.h"
+#include "shell.h"
 #include "temporary_folder.h"
 #include "wrinkle/error.h"
 
@@ -64,10 +65,6 @@ Normals read_normals(const fs::path& file, std::size_t pixels) {
         for (std::size_t i = 0; i < pixels; ++i) (*plane)[i] = all[i * names.size() + c];
     }
     return n;
-}
-
-void call(const std::string& command) {
-    if (std::system((command + " >/dev/null").c_str()) != 0) throw Error("this command failed: " + command);
 }
 
 }  // namespace

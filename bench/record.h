@@ -12,7 +12,7 @@ namespace wrinkle::bench {
 
 /// One thing measured: how fast, how wrong. A speed is never recorded without its error.
 struct Measurement {
-    std::string group;    ///< "function", "scene", "layer", "memory", "volume", "decals", "start"
+    std::string group;    ///< "function", "scene", "layer", "memory", "volume", "decals"
     std::string name;     ///< "tangent_frame"
     std::string variant;  ///< "standard", "fused", "plain C++"
     int lanes = 0;        ///< pixels a work-item; 0: not a kernel

@@ -9,7 +9,7 @@
 namespace wrinkle::bench {
 
 /// A scene by each contender: fused, one kernel a layer, plain C++ where that knows every layer; and, for `layers`,
-/// each layer alone above the empty scene. Adds builds (cold, from the cache) as group "start".
+/// each layer alone above the empty scene. With seconds to build the kernels, and to take them from the cache.
 void measure_scene(const Device& device, const std::filesystem::path& file, Size size, bool layers, Run& run);
 
 /// The fused scene at each size, in bands, so that memory does not grow with the frame.

@@ -19,7 +19,8 @@ bool same_loop(const Layer& a, const Layer& b) {
                                    a.mask.invert == b.mask.invert);
     const TextureUse &ta = std::get<DecalLayer>(a.bump).texture, &tb = std::get<DecalLayer>(b.bump).texture;
     const bool same_mode = std::get<DecalLayer>(a.bump).mode == std::get<DecalLayer>(b.bump).mode;
-    return same_mask && same_mode && a.footprint == b.footprint && sample_function(ta) == sample_function(tb);
+    return same_mask && same_mode && a.footprint == b.footprint && texel_kind(ta) == texel_kind(tb) &&
+           ta.wrap == tb.wrap;
 }
 
 std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) {
@@ -49,14 +50,16 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
             wr_decal_point in = wr_decal_locate(decal, p);
 {}            real weight = m * wr_decal_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
-            vec2 slope = {}(t, in.st, {});
+            real lod = {};
+            vec2 slope = {};
             {}
         }}
 )",
         first, first + layers.size(),
         at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
-        facing ? "" : " * wr_decal_angle_fade(decal, n)", sample_function(std::get<DecalLayer>(layer.bump).texture),
-        layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "(real)(0)",
+        facing ? "" : " * wr_decal_angle_fade(decal, n)",
+        layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "0",
+        sample_text(std::get<DecalLayer>(layer.bump).texture, "in.st", "lod", "weight != 0"),
         projector ? "vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
                     "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_decal_bumped_axis(decal, slope), "
                     "weight), below));"

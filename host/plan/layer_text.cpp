@@ -15,12 +15,14 @@ double sample_cost(const TextureUse& use) {
     return kind == TexelKind::height ? kHeightSamples : kind == TexelKind::vector ? kVectorSample : kSlopeSample;
 }
 
-std::string sample_function(const TextureUse& use) {
+std::string sample_text(const TextureUse& use, const std::string& st, const std::string& lod,
+                        const std::string& wanted) {
     const TexelKind kind = texel_kind(use);
-    const std::string form = kind == TexelKind::height   ? "wr_height_slope_plain"
-                             : kind == TexelKind::vector ? "wr_object_normal"
-                                                         : "wr_slope";
-    return form + (use.wrap == Wrap::clamp ? "_clamp" : "");
+    const char* form = kind == TexelKind::height   ? "wr_height_slope_plain"
+                       : kind == TexelKind::vector ? "wr_object_normal"
+                                                   : "wr_slope";
+    return fmt::format("{}{}(t, {}, {}{})", form, use.wrap == Wrap::clamp ? "_clamp" : "", st, lod,
+                       kind == TexelKind::slope && !wanted.empty() ? ", " + wanted : "");
 }
 
 std::string LayerText::strength() const { return literal(layer.blend == Blend::subtract ? -layer.scale : layer.scale); }
@@ -39,9 +41,8 @@ std::string LayerText::located(const TextureUse& use, TexelKind kind, const UvMa
 }
 
 std::string LayerText::textured(const TextureUse& use, const UvMapping& uv, const char* declared) {
-    const std::string text =
-        located(use, texel_kind(use), uv) +
-        fmt::format("        {} = {}(t, c.st, {});\n", declared, sample_function(use), lod("c.dx", "c.dy"));
+    const std::string text = located(use, texel_kind(use), uv) +
+                             fmt::format("        {} = {};\n", declared, sample_text(use, "c.st", lod("c.dx", "c.dy")));
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");
     section.operations += sample_cost(use);

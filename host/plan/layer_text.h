@@ -30,8 +30,9 @@ struct LayerText {
 
 /// How the texels of `use` are stored.
 TexelKind texel_kind(const TextureUse& use);
-/// Name of the kernel function that samples `use`.
-std::string sample_function(const TextureUse& use);
+/// Kernel text that samples `use`, a texture `t`; slopes only where the mask `wanted` holds, if there is one.
+std::string sample_text(const TextureUse& use, const std::string& st, const std::string& lod,
+                        const std::string& wanted = "");
 /// Expected operations of such a sample.
 double sample_cost(const TextureUse& use);
 

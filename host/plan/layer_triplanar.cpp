@@ -124,9 +124,10 @@ private:
         const bool upper = l_.origin == TextureOrigin::upper_left, vector = use.content == Content::object_normal;
         std::string text = fmt::format(
             "            wr_texture t = wr_texture_at(texels, textures, {});\n"
-            "            {} = {}(t, {}, {});\n",
-            at_.emitter.texture(use, texel_kind(use)), vector ? "vec3 v" : plane.slope, sample_function(use),
-            pair_of("q", plane, upper ? "-" : ""), at_.lod(pair_of("qx", plane), pair_of("qy", plane)));
+            "            {} = {};\n",
+            at_.emitter.texture(use, texel_kind(use)), vector ? "vec3 v" : plane.slope,
+            sample_text(use, pair_of("q", plane, upper ? "-" : ""),
+                        at_.lod(pair_of("qx", plane), pair_of("qy", plane))));
         if (vector) {
             at_.section.reads.insert("g");
             at_.section.writes.insert("g");
