@@ -122,9 +122,9 @@ void measure_scene(const Device& device, const std::filesystem::path& file, Size
 void measure_sizes(const Device& device, const std::filesystem::path& file, const std::vector<Size>& sizes, Run& run) {
     const Scene from_file = load_scene(file);
     const Resampler resampler(from_file);
-    const double held_before = resident_bytes();
     for (const Size size : sizes) {
-        ::malloc_trim(0);
+        ::malloc_trim(0);  // what earlier sizes let go
+        const double held_before = resident_bytes();
         double held = 0;
         Frame shape = resampler.description();
         shape.size = size;
