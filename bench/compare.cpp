@@ -6,13 +6,15 @@ namespace wrinkle::bench {
 
 namespace {
 
-/// Errors are deterministic on one device; compilers may round the last bit differently on another.
-constexpr double kErrorSlack = 1.25;
+/// Errors are deterministic on one device; compilers may round the last bit differently on another, and what single
+/// ill-conditioned inputs make of that is larger.
+constexpr double kErrorSlack = 1.25, kMaxErrorSlack = 2;
 
 /// Larger than rounding alone would make it.
 bool grew(const ErrorStats& before, const ErrorStats& now) {
-    const auto larger = [](double a, double b) { return b > kErrorSlack * a && b > 1e-12; };
-    return larger(before.p99, now.p99) || larger(before.max, now.max) || now.not_finite > before.not_finite;
+    const auto larger = [](double a, double b, double slack) { return b > slack * a && b > 1e-12; };
+    return larger(before.p99, now.p99, kErrorSlack) || larger(before.max, now.max, kMaxErrorSlack) ||
+           now.not_finite > before.not_finite;
 }
 
 /// Seconds in units of what the machine could have done meanwhile: of moving the bytes, or of the arithmetic.
