@@ -59,7 +59,8 @@ std::string unknown_key(std::string_view key) {
                            fmt::join(known, ", "));
     }
     std::vector<std::string_view> elements;
-    for (const DecalColumn& each : columns_by_key().at(column->key)) elements.emplace_back(each.name);
+    const Columns columns = columns_by_key().at(column->key);
+    for (const DecalColumn& each : columns) elements.emplace_back(each.name);
     return fmt::format("{} is written {} = [{}]", quote(key), column->key, fmt::join(elements, ", "));
 }
 
