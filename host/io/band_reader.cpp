@@ -15,10 +15,13 @@
 namespace wrinkle::io {
 namespace {
 
-constexpr int zip_block = 16;                      // rows; a band that begins inside a block decompresses it twice
+constexpr int zip_block = 16;  // rows; whole blocks are decompressed, however few rows are asked for
+constexpr int overlap = 2;     // rows that a band shares with the next, for neighbours on both sides
 constexpr std::size_t scratch_floats = 16u << 20;  // 64 MiB: enough blocks for every core, small beside a frame
 
 int round_down(int value, int step) { return value - value % step; }
+
+int block_rows(const Part& part) { return part.tile_height > 0 ? part.tile_height : zip_block; }
 
 }  // namespace
 
@@ -64,18 +67,15 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
     if (right <= left) return;
 
     const std::size_t row_floats = range.channels() * static_cast<std::size_t>(part.width);
-    const int step = part.tile_height > 0 ? part.tile_height : zip_block;
+    const int step = block_rows(part);
     const int rows = std::max(round_down(static_cast<int>(scratch_floats / row_floats), step), step);
     // Data rows are counted from the data window's top, where blocks and tiles begin.
     for (int y = top - part.y; y < bottom - part.y;) {
         const int y_end = std::min(round_down(y, step) + rows, bottom - part.y);
-        const int read_begin = part.tile_height > 0 ? round_down(y, step) : y;
-        const int read_end = part.tile_height > 0 ? std::min(round_down(y_end + step - 1, step), part.height) : y_end;
-        scratch_.resize(std::max(scratch_.size(), row_floats * static_cast<std::size_t>(read_end - read_begin)));
-        if (!read_interleaved(*input_, range, read_begin, read_end)) fail(range, read_begin, read_end);
+        const int first = fetch(range, y, y_end);
         const auto separate = [&](std::int64_t from, std::int64_t to) {
             for (auto row = from; row < to; ++row) {
-                const float* in = scratch_.data() + row_floats * static_cast<std::size_t>(row - read_begin) +
+                const float* in = scratch_.data() + row_floats * static_cast<std::size_t>(row - first) +
                                   range.channels() * static_cast<std::size_t>(left - part.x);
                 const auto frame_row = static_cast<std::size_t>(row + part.y) - row_begin;
                 for (const auto& channel : range.wanted) {
@@ -94,15 +94,35 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
     }
 }
 
-bool BandReader::read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end) {
+int BandReader::fetch(const Range& range, int y, int y_end) {
+    const auto& part = parts_[static_cast<std::size_t>(range.part)];
+    const std::size_t row_floats = range.channels() * static_cast<std::size_t>(part.width);
+    const int step = block_rows(part), end = std::min(round_down(y_end + step - 1, step), part.height);
+    Held& held = held_[{range.part, range.whole_numbers}];
+    const bool follows = held.channels == std::pair{range.begin, range.end} && held.first <= y && y < held.last;
+    const int first = follows ? held.first : round_down(y, step);
+    const int read_from = follows ? held.last : first, last = std::max(read_from, end);
+    scratch_.resize(std::max(scratch_.size(), row_floats * static_cast<std::size_t>(last - first)));
+    if (follows) std::ranges::copy(held.rows, scratch_.begin());
+    const auto row = [&](int y_of) { return scratch_.data() + row_floats * static_cast<std::size_t>(y_of - first); };
+    if (read_from < end && !read_interleaved(*input_, range, read_from, end, row(read_from)))
+        fail(range, read_from, end);
+    held.channels = {range.begin, range.end};
+    held.first = std::max(first, round_down(std::max(y_end - overlap, 0), step));
+    held.last = last;
+    held.rows.assign(row(held.first), row(held.last));
+    return first;
+}
+
+bool BandReader::read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, float* out) {
     const auto& part = parts_[static_cast<std::size_t>(range.part)];
     const auto type = range.whole_numbers ? OIIO::TypeUInt32 : OIIO::TypeFloat;
     const int from = part.origin_y + y_begin, to = part.origin_y + y_end;
     if (part.tile_height > 0) {
         return input.read_tiles(range.part, 0, part.origin_x, part.origin_x + part.width, from, to, 0, 1, range.begin,
-                                range.end, type, scratch_.data());
+                                range.end, type, out);
     }
-    return input.read_scanlines(range.part, 0, from, to, 0, range.begin, range.end, type, scratch_.data());
+    return input.read_scanlines(range.part, 0, from, to, 0, range.begin, range.end, type, out);
 }
 
 void BandReader::fail(const Range& range, int y_begin, int y_end) {
@@ -111,7 +131,7 @@ void BandReader::fail(const Range& range, int y_begin, int y_end) {
     const int step = part.tile_height > 0 ? part.tile_height : 1;
     const auto again = open_image(file_);  // after a failure the first stream stays at its end
     int bad = y_begin;
-    while (bad + step < y_end && read_interleaved(*again, range, bad, bad + step)) bad += step;
+    while (bad + step < y_end && read_interleaved(*again, range, bad, bad + step, scratch_.data())) bad += step;
     again->geterror();
     throw Error(fmt::format("{}: row {} of {} cannot be read{}: the file is truncated or damaged; render it again",
                             file_.string(), bad + part.y, size_.height, why));
