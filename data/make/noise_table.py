@@ -3,9 +3,10 @@
     python3 noise_table.py > ../../kernels/sources/noise_table.clh
 
 The algorithm hashes the corners of a cell by p[p[p[x] + y] + z] and chooses one of twelve gradients, four of them
-twice, by the low four bits of the last hash. Corners come in neighbouring pairs, so wr_perlin_hash holds p[i] and p[i + 1] in
-one ushort, and wr_perlin_gradient the gradient of p[i] in one uint: three components of 9 bits, which are the sign and
-the exponent of the floats -1, 0 and 1. Indices reach 2 * 256 + 1, hence the lengths.
+twice, by the low four bits of the last hash. Corners come in neighbouring pairs, so wr_perlin_hash holds p[i] and
+p[i + 1] in one ushort, wr_perlin_choice the low four bits of both in one byte, two to a ushort, and
+wr_perlin_gradient the gradient of p[i] in one uint: three components of 9 bits, which are the sign and the exponent of
+the floats -1, 0 and 1; pairs of it are read from any i, hence its length.
 """
 
 PERMUTATION = [
@@ -31,8 +32,14 @@ HASH_HEADER = """\
 // Tables of Perlin's 2002 reference noise, packed so that the eight corners of a cell need 7 loads instead of 14 for
 // the hashes, and no arithmetic to choose gradients. data/make/noise_table.py prints this file.
 
-// p[i] in the low byte, p[i + 1] in the high one; the permutation twice over.
-constant ushort wr_perlin_hash[512] = {"""
+// p[i] in the low byte, p[i + 1] in the high one.
+constant ushort wr_perlin_hash[256] = {"""
+
+CHOICE_HEADER = """\
+};
+
+// The low four bits of p[i] and p[i + 1], in one byte for each i.
+constant ushort wr_perlin_choice[128] = {"""
 
 DIRECTIONS_HEADER = """\
 };
@@ -42,7 +49,7 @@ DIRECTIONS_HEADER = """\
 GRADIENT_HEADER = """\
 
 // The gradient of hash p[i], by the low four bits of it.
-constant uint wr_perlin_gradient[514] = {"""
+constant uint wr_perlin_gradient[257] = {"""
 
 TOP_BITS = {0: 0x000, 1: 0x07F, -1: 0x17F}  # sign and exponent of 0.0f, 1.0f and -1.0f
 
@@ -67,9 +74,12 @@ def print_rows(cells, per_row):
         print("    " + ", ".join(cells[i:i + per_row]) + ",")
 
 
-p = PERMUTATION * 2 + PERMUTATION[:2]
+p = PERMUTATION + PERMUTATION[:1]
 print(HASH_HEADER)
-print_rows([f"{p[i] | p[i + 1] << 8:5d}" for i in range(512)], 16)
+print_rows([f"{p[i] | p[i + 1] << 8:5d}" for i in range(256)], 16)
+choice = [p[i] & 15 | (p[i + 1] & 15) << 4 for i in range(256)]
+print(CHOICE_HEADER)
+print_rows([f"{choice[i] | choice[i + 1] << 8:5d}" for i in range(0, 256, 2)], 16)
 print(DIRECTIONS_HEADER)
 for h in range(16):
     print(f"#define WR_PERLIN_G{h:X} 0x{packed(gradient(h)):08x}")
