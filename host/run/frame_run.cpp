@@ -9,7 +9,7 @@ namespace {
 
 /// Rows of a band: whole ZIP blocks of EXR files, and enough pixels to keep every core busy. Three bands are in flight.
 constexpr std::uint32_t kBlockRows = 16;
-constexpr std::size_t kBandPixels = std::size_t{1} << 18;
+constexpr std::size_t kBandPixels = std::size_t{1} << 17;
 
 std::uint32_t band_rows(Size size) {
     const std::size_t blocks = std::max<std::size_t>(kBandPixels / size.width / kBlockRows, 1);
