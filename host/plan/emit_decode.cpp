@@ -122,7 +122,7 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        text += "        mask usable = uv_valid;\n" +
+        text += "        mask usable = uv_valid;\n        if (wr_any(usable)) {\n" +
                 neighbours_text(emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))",
                                 "uv_valid", [](const char* axis, const std::string& before, const std::string& after) {
                                     return fmt::format(
@@ -131,7 +131,7 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
                                         axis, before, after);
                                 });
         text +=
-            "        wr_texcoord_from_changes(to_dx, to_dy, dp_dx, dp_dy, &uv.dx, &uv.dy);\n"
+            "        wr_texcoord_from_changes(to_dx, to_dy, dp_dx, dp_dy, &uv.dx, &uv.dy);\n        }\n"
             "        uv_valid = usable;\n";
         section.operations += 340;
     }

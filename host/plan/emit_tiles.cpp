@@ -62,7 +62,7 @@ PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
         planes, load_geometry(geometry, kLoad, kIndent) + (moved.by_normal ? load_normal(kLoad, kIndent) : ""),
         moved.by_normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent),
         geometry.position, grow_text(emitter, moved));
-    return {"wr_bin_tiles", inputs, {}, {}};
+    return {"wr_bin_tiles", inputs, {}, {}, 0};
 }
 
 }  // namespace wrinkle

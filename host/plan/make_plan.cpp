@@ -112,7 +112,7 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
             stored.insert(section->writes.begin(), section->writes.end());
         }
     }
-    PlannedKernel kernel{name, {inputs.begin(), inputs.end()}, {}, outputs};
+    PlannedKernel kernel{name, {inputs.begin(), inputs.end()}, {}, outputs, 0};
     std::string load, store;
     for (const Value& value : values()) {
         if (!split || (!loaded.contains(value.name) && !stored.contains(value.name))) continue;
@@ -154,6 +154,7 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         if (used.contains(value.name)) text += declare(value);
     text += load;
     for (const Section* section : sections) {
+        kernel.operations += section->operations;
         text += fmt::format("\n    // stage {}: {}\n    {{\n{}    }}\n", section->stage, section->title, section->body);
         plan.sections.push_back(
             {section->stage, section->title, {section->inputs.begin(), section->inputs.end()}, section->operations});

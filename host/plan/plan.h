@@ -95,6 +95,7 @@ struct PlannedDecals {
 struct PlannedKernel {
     std::string name;
     std::vector<std::string> inputs, scratch, outputs;
+    double operations = 0;  ///< expected per pixel, where nothing is skipped
 };
 
 /// What `wrinkle explain` says of a section.

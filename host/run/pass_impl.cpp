@@ -20,8 +20,13 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Work-items a group: fixed, since PoCL compiles every local size anew, and large enough for a GPU's warps.
-constexpr std::size_t kGroup = 64;
+/// Work-items a group: fixed, since PoCL compiles every local size anew, and enough for a GPU's warps. But PoCL keeps
+/// what functions return to a kernel for all of a group: of long kernels, that of 8 fits the first cache, of 64 it does
+/// not.
+std::size_t group_size(const PlannedKernel& kernel, int lanes) {
+    constexpr double kLong = 1000;
+    return lanes > 1 && kernel.operations > kLong ? 8 : 64;
+}
 
 /// A read-only buffer holding `count` numbers, narrowed to float unless the program computes in double.
 cl::Buffer numbers(const Device& device, const double* values, std::size_t count, bool fp64) {
@@ -142,7 +147,6 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     const std::size_t in_pixels = before + pixels + std::size_t{rows.after} * size.width;
     if (in_pixels > std::numeric_limits<cl_uint>::max()) throw Error("a band holds more than 2^32 pixels");
     const std::size_t in_bytes = std::max(in_pixels, before + touched) * sizeof(float);
-    const std::size_t global = (items + kGroup - 1) / kGroup * kGroup;
     std::vector<cl::Event> after = wait;
     if (plan.tiles) {
         std::vector<cl::Buffer> planes;
@@ -172,9 +176,9 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         kernel.setArg(i++, static_cast<cl_uint>(pixels));
         const std::vector<cl::Event>* before_it = after.empty() ? nullptr : &after;
         std::vector<cl::Event> done(std::max<std::size_t>(some.size(), 1));
-        if (some.empty())
-            device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(kGroup),
-                                              before_it, done.data());
+        if (const std::size_t group = group_size(plan.kernels[k], options.lanes); some.empty())
+            device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + group - 1) / group * group),
+                                              cl::NDRange(group), before_it, done.data());
         for (std::size_t run = 0; run < some.size(); ++run)
             device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(some[run].first), cl::NDRange(some[run].count),
                                               cl::NDRange(1), before_it, &done[run]);
