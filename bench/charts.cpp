@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <set>
 
 #include "report.h"
@@ -61,19 +64,48 @@ std::string pareto(const std::string& name, const std::vector<const Measurement*
 }
 
 /// Arithmetic per byte against speed, under the ceilings of the machine.
+/// A point of the roofline, on logarithmic axes.
+struct RoofPoint {
+    double x, y, below;  ///< decades; `below` the roof
+    std::string name;
+};
+
+/// Names those points that lie furthest below the roof, as far as there is room.
+std::string labels_of(std::vector<RoofPoint> points) {
+    constexpr double kCharacter = 0.026, kLine = 0.07;  // decades, in a chart of 900 x 600
+    std::ranges::sort(points, std::greater(), &RoofPoint::below);
+    std::vector<RoofPoint> named;
+    std::string data = "$named << EOD\n";
+    for (const RoofPoint& point : points) {
+        const bool room = std::ranges::none_of(named, [&](const RoofPoint& other) {
+            const double wide = kCharacter * static_cast<double>(point.name.size() + other.name.size()) / 2;
+            return std::abs(other.x - point.x) < wide && std::abs(other.y - point.y) < kLine;
+        });
+        if (!room) continue;
+        named.push_back(point);
+        data += fmt::format("{:.6g} {:.6g} {}\n", std::pow(10, point.x), std::pow(10, point.y), quoted(point.name));
+    }
+    return data + "EOD\n";
+}
+
 std::string roofline(const Run& run) {
     std::string data = "$all << EOD\n";
+    std::vector<RoofPoint> points;
     for (const Measurement& m : run.measurements)
-        if (m.seconds.median > 0 && m.counted() && m.lanes > 0 && m.variant != "double")
-            data += fmt::format("{:.6g} {:.6g} {}\n", m.operations / m.bytes, m.gflop_per_s(),
-                                quoted(m.name + (m.group == "function" || m.group == "layer" ? "" : ": " + m.variant)));
-    return data +
+        if (m.seconds.median > 0 && m.counted() && m.lanes > 0 && m.variant != "double") {
+            const double x = m.operations / m.bytes, y = m.gflop_per_s();
+            const double roof = std::min(x * run.ceilings.copy_gb_s, run.ceilings.fma_gflop_s);
+            data += fmt::format("{:.6g} {:.6g}\n", x, y);
+            points.push_back({std::log10(x), std::log10(y), std::log10(roof / y),
+                              m.name + (m.group == "function" || m.group == "layer" ? "" : ": " + m.variant)});
+        }
+    return data + "EOD\n" + labels_of(std::move(points)) +
            fmt::format(
-               "EOD\nset title \"roofline\"\nset xlabel \"operations per byte\"\nset ylabel \"Gflop/s\"\n"
+               "set title \"roofline\"\nset xlabel \"operations per byte\"\nset ylabel \"Gflop/s\"\n"
                "set logscale xy\nroof(x) = x * {0:.6g} < {1:.6g} ? x * {0:.6g} : {1:.6g}\nset xrange [0.05:200]\n"
                "plot roof(x) with lines lc rgb \"#c05020\" lw 2 title \"copy {0:.0f} GB/s, fma {1:.0f} Gflop/s\", "
-               "$all using 1:2 with points pt 7 ps 0.7 lc rgb \"#205080\" notitle, "
-               "$all using 1:2:3 with labels offset 0,0.7 font \",8\" noenhanced notitle\n",
+               "$all using 1:2 with points pt 7 ps 0.5 lc rgb \"#205080\" notitle, "
+               "$named using 1:2:3 with labels offset 0,-0.7 font \",8\" noenhanced notitle\n",
                run.ceilings.copy_gb_s, run.ceilings.fma_gflop_s);
 }
 
@@ -110,9 +142,9 @@ std::map<std::string, std::string> charts(const Run& run) {
     std::size_t number = 0;
     for (const auto& [name, text] : scripts)
         script += fmt::format(
-            "reset\nset grid\nset terminal svg size 560,380 font \"sans-serif,11\" background \"#ffffff\"\n"
+            "reset\nset grid\nset terminal svg size {} font \"sans-serif,11\" background \"#ffffff\"\n"
             "set output \"{}/{}.svg\"\n{}",
-            folder.path().string(), number++, text);
+            name == "roofline" ? "900,600" : "560,380", folder.path().string(), number++, text);
     std::ofstream(folder.path() / "script") << script;
     const int status = std::system(
         fmt::format("gnuplot '{}' 2> '{}'", (folder.path() / "script").string(), (folder.path() / "messages").string())
