@@ -63,7 +63,6 @@ std::string pareto(const std::string& name, const std::vector<const Measurement*
         points("front", all, true), points("all", all, false));
 }
 
-/// Arithmetic per byte against speed, under the ceilings of the machine.
 /// A point of the roofline, on logarithmic axes.
 struct RoofPoint {
     double x, y, below;  ///< decades; `below` the roof
@@ -88,6 +87,7 @@ std::string labels_of(std::vector<RoofPoint> points) {
     return data + "EOD\n";
 }
 
+/// Arithmetic per byte against speed, under the ceilings of the machine.
 std::string roofline(const Run& run) {
     std::string data = "$all << EOD\n";
     std::vector<RoofPoint> points;

@@ -15,8 +15,8 @@
 namespace wrinkle::io {
 namespace {
 
-constexpr int zip_block = 16;  // rows; whole blocks are decompressed, however few rows are asked for
-constexpr int overlap = 2;     // rows that a band shares with the next, for neighbours on both sides
+constexpr int zip_block = 16;  // rows; reads are widened to whole blocks, which ZIP decompresses anyway
+constexpr int overlap = 2;     // rows that bands share where neighbours are needed; only speed depends on it
 constexpr std::size_t scratch_floats = 16u << 20;  // 64 MiB: enough blocks for every core, small beside a frame
 
 int round_down(int value, int step) { return value - value % step; }
@@ -107,10 +107,11 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
     const auto row = [&](int y_of) { return scratch_.data() + row_floats * static_cast<std::size_t>(y_of - first); };
     if (read_from < end && !read_interleaved(*input_, range, read_from, end, row(read_from)))
         fail(range, read_from, end);
-    held.channels = {range.begin, range.end};
-    held.first = std::max(first, round_down(std::max(y_end - overlap, 0), step));
-    held.last = last;
-    held.rows.assign(row(held.first), row(held.last));
+    const int keep = std::max(first, round_down(std::max(y_end - overlap, 0), step));
+    if (row_floats * static_cast<std::size_t>(last - keep) > scratch_floats)  // tall tiles: rather read them again
+        held = {};
+    else
+        held = {{range.begin, range.end}, keep, last, {row(keep), row(last)}};
     return first;
 }
 

@@ -6,6 +6,16 @@ namespace wrinkle {
 
 namespace {
 
+/// Lines of text, one level deeper.
+std::string indented(const std::string& lines) {
+    std::string text;
+    for (std::size_t begin = 0, end; begin < lines.size(); begin = end) {
+        end = lines.find('\n', begin) + 1;
+        text += "    " + lines.substr(begin, end - begin);
+    }
+    return text;
+}
+
 /// Arguments of the generated helpers: every plane they load.
 std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
     std::string text;
@@ -123,15 +133,16 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
         section.operations += 90;
     } else {
         text += "        mask usable = uv_valid;\n        if (wr_any(usable)) {\n" +
-                neighbours_text(emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))",
-                                "uv_valid", [](const char* axis, const std::string& before, const std::string& after) {
-                                    return fmt::format(
-                                        "        wr_texcoord_change to_{0} = wr_texcoord_difference(self, {1},\n"
-                                        "                                       {2}, dp_{0}, &usable);\n",
-                                        axis, before, after);
-                                });
+                indented(neighbours_text(
+                    emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))", "uv_valid",
+                    [](const char* axis, const std::string& before, const std::string& after) {
+                        return fmt::format(
+                            "        wr_texcoord_change to_{0} = wr_texcoord_difference(self, {1},\n"
+                            "                                       {2}, dp_{0}, &usable);\n",
+                            axis, before, after);
+                    }));
         text +=
-            "        wr_texcoord_from_changes(to_dx, to_dy, dp_dx, dp_dy, &uv.dx, &uv.dy);\n        }\n"
+            "            wr_texcoord_from_changes(to_dx, to_dy, dp_dx, dp_dy, &uv.dx, &uv.dy);\n        }\n"
             "        uv_valid = usable;\n";
         section.operations += 340;
     }

@@ -45,7 +45,7 @@ std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& ta
         at.emitter.need(at.who, {"object"});
         at.section.inputs.insert("object");
         text +=
-            "                if (decal->mask == 1) weight *= wr_mask_object(wr_load(in_object, at.in), "
+            "                    if (decal->mask == 1) weight *= wr_mask_object(wr_load(in_object, at.in), "
             "decal->object);\n";
     }
     if (std::ranges::none_of(rows, [](const Projector& row) { return !row.cryptomatte.empty(); })) return text;
@@ -58,16 +58,16 @@ std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& ta
             found->second = at.emitter.cryptomatte_hash(name, at.who + ": " + row_place(layer, i));
         table.hashes.push_back(found->second);
     }
-    text += "                if (decal->mask == 2) {\n                    real covered = 0;\n";
+    text += "                    if (decal->mask == 2) {\n                        real covered = 0;\n";
     for (int rank = 0; at.emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
         const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
         at.section.inputs.insert({id, coverage});
         text += fmt::format(
-            "                    covered += wr_projector_cryptomatte(decal, wr_load_floats({}, at.in), wr_load({}, "
+            "                        covered += wr_projector_cryptomatte(decal, wr_load_floats({}, at.in), wr_load({}, "
             "at.in));\n",
             identifier(id), identifier(coverage));
     }
-    return text + "                    weight *= wr_mask_channel(covered);\n                }\n";
+    return text + "                        weight *= wr_mask_channel(covered);\n                    }\n";
 }
 
 }  // namespace
@@ -87,8 +87,8 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
     const auto is_table = [](const Layer& layer) { return std::holds_alternative<DecalsLayer>(layer.bump); };
     const std::string another_table =
         std::ranges::count_if(at.emitter.scene.layers, is_table) > 1
-            ? fmt::format("                if (number < {}u || number >= {}u) continue;  // of another layer\n", first,
-                          last)
+            ? fmt::format("                    if (number < {}u || number >= {}u) continue;  // of another layer\n",
+                          first, last)
             : "";
 
     const bool facing = at.emitter.options.view_footprint;
@@ -107,7 +107,7 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
             uint begin = lists[WR_LIST_WORDS * bin + WR_LIST_FIRST];
             uint end = begin + lists[WR_LIST_WORDS * bin + WR_LIST_COUNT];
             for (uint from = begin; from < end; from += 32) {{
-                uint touching = 0;  // a bit each: unlike branches, bits wait for nothing
+                uint touching = 0;  // those that some pixel lies in; no branch waits for a test
                 for (uint k = 0; k < min(end - from, 32u); ++k)
                     touching |= (uint)(wr_any(here & wr_in_box(projectors + entries[from + k], p)) ? 1 : 0) << k;
                 for (; touching != 0; touching &= touching - 1) {{

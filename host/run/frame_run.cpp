@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <future>
+#include <thread>
 
 namespace wrinkle {
 
 namespace {
 
-/// Rows of a band: whole ZIP blocks of EXR files, and enough pixels to keep every core busy. Three bands are in flight.
+/// Rows of a band: whole ZIP blocks of EXR files, and enough of them for every core to decompress one while frames are
+/// up to 4096 wide. More would leave cores idle longer at a run's start and end. Three bands are in flight.
 constexpr std::uint32_t kBlockRows = 16;
-constexpr std::size_t kBandPixels = std::size_t{1} << 17;
+constexpr std::size_t kCorePixels = std::size_t{1} << 16;
+constexpr std::size_t kMostCores = 16;  // memory is bounded on any machine
 
 std::uint32_t band_rows(Size size) {
-    const std::size_t blocks = std::max<std::size_t>(kBandPixels / size.width / kBlockRows, 1);
+    const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 2, kMostCores);
+    const std::size_t blocks = std::max<std::size_t>(cores * kCorePixels / size.width / kBlockRows, 1);
     return static_cast<std::uint32_t>(std::min<std::size_t>(blocks * kBlockRows, size.height));
 }
 

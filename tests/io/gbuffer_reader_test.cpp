@@ -67,34 +67,46 @@ TEST(GBufferReader, HalfAndTiledFilesReadTheSame) {
     }
 }
 
-// A band begins among the blocks that the band before has read, which are not read again.
+// A band begins among the blocks that the band before has read, of one part or of several.
 TEST(GBufferReader, BandsThatOverlapReadTheSame) {
+    using Plane = std::pair<std::string, int>;  // and the number of its channel in its part
     TempFolder folder;
     const int width = 21, height = 150;
     auto lines = make_spec(width, height, {"N.X", "N.Y", "N.Z", "U", "Z"}), tiles = lines, crop = lines;
     tiles.tile_width = tiles.tile_height = 16;
     crop.y = 9, crop.full_y = 0, crop.full_height = height + 20;
-    for (const auto& [name, spec] : {std::pair{"lines.exr", lines}, {"tiles.exr", tiles}, {"crop.exr", crop}}) {
-        write_image(folder / name, {{spec}});
-        const GBufferReader reader(folder / name);
-        const auto expect = [&](int begin, int end, const std::vector<std::pair<std::string, int>>& planes) {
+    auto first = make_spec(width, height, {"X", "Y", "Z"}), second = make_spec(width, height, {"depth.U", "depth.Z"});
+    first.attribute("oiio:subimagename", "N"), second.attribute("oiio:subimagename", "depth");
+    const struct {
+        const char* name;
+        std::vector<OIIO::ImageSpec> parts;
+        Plane depth, other;
+    } files[] = {{"lines.exr", {lines}, {"depth", 4}, {"channel:U", 3}},
+                 {"tiles.exr", {tiles}, {"depth", 4}, {"channel:U", 3}},
+                 {"crop.exr", {crop}, {"depth", 4}, {"channel:U", 3}},
+                 {"parts.exr", {first, second}, {"depth", 1}, {"channel:depth.U", 0}}};
+    for (const auto& file : files) {
+        write_image(folder / file.name, {file.parts.begin(), file.parts.end()});
+        const GBufferReader reader(folder / file.name);
+        const int top = file.parts.front().y;
+        const auto expect = [&](int begin, int end, const std::vector<Plane>& planes) {
             Names names;
-            for (const auto& plane : planes) names.push_back(plane.first);
+            for (const Plane& plane : planes) names.push_back(plane.first);
             const auto values = read(reader, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), names);
             for (std::size_t p = 0; p < planes.size(); ++p)
                 for (int y = begin, i = 0; y < end; ++y)
                     for (int x = 0; x < width; ++x, ++i) {
-                        const bool inside = y >= spec.y && y < spec.y + height;
+                        const bool inside = y >= top && y < top + height;
                         ASSERT_EQ(values[p][static_cast<std::size_t>(i)],
-                                  inside ? numbered(planes[p].second, x, y - spec.y) : 0.0f)
-                            << name << ", rows " << begin << " to " << end << ", " << names[p] << ", row " << y;
+                                  inside ? numbered(planes[p].second, x, y - top) : 0.0f)
+                            << file.name << ", rows " << begin << " to " << end << ", " << names[p] << ", row " << y;
                     }
         };
-        const std::pair<std::string, int> normal{"normal.z", 2}, depth{"depth", 4}, other{"channel:U", 3};
+        const Plane normal{"normal.z", 2};
         for (int band = 0; band < height; band += 32)
-            expect(std::max(band - 1, 0), std::min(band + 33, height), {normal, depth});
-        expect(40, 50, {normal, depth});  // back, and within
-        expect(48, 49, {depth, other});   // of other channels
+            expect(std::max(band - 1, 0), std::min(band + 33, height), {normal, file.depth});
+        expect(40, 50, {normal, file.depth});      // back, and within
+        expect(48, 49, {file.depth, file.other});  // of other channels
         expect(47, 100, {normal});
         expect(98, 150, {normal});
     }
