@@ -79,16 +79,19 @@ struct GBufferReader::Impl {
 bool GBufferReader::Impl::sample_packed_normals() const {
     // Only where a writer is known to pack, or unknown: for the others [0,1] would be a coincidence.
     if (!roles.has_role("normal") || (roles.writer != Writer::unreal && roles.writer != Writer::plain)) return false;
-    constexpr std::uint32_t wanted_rows = 5;
+    const std::size_t width = image.size.width;
     std::vector<float> planes[3];
-    for (std::uint32_t i = 0; i < wanted_rows; ++i) {
-        const auto row = (2 * i + 1) * image.size.height / (2 * wanted_rows);
+    for (const std::uint32_t tenth : {5u, 3u, 7u, 1u, 9u}) {  // mostly one will do, and each costs a block of rows
+        const auto row = tenth * image.size.height / 10;
         std::vector<io::WantedChannel> wanted;
+        std::span<const float> read[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            planes[axis].resize(planes[axis].size() + image.size.width);
-            wanted.push_back({*place(normal_planes[axis]), planes[axis].data() + i * image.size.width});
+            planes[axis].resize(planes[axis].size() + width);
+            read[axis] = std::span(planes[axis]).last(width);
+            wanted.push_back({*place(normal_planes[axis]), planes[axis].data() + planes[axis].size() - width});
         }
         reader->read(row, row + 1, wanted);
+        if (io::cannot_be_packed(read[0], read[1], read[2])) return false;
     }
     return io::looks_packed(planes[0], planes[1], planes[2]);
 }

@@ -15,15 +15,22 @@ float median(std::vector<float>& values) {
 
 }  // namespace
 
+bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+    constexpr float rounding = 0.01f;  // half floats, 8-bit sources
+    const auto outside = [](float c) { return c < -rounding || c > 1 + rounding; };
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::isfinite(x[i] + y[i] + z[i]) && (outside(x[i]) || outside(y[i]) || outside(z[i]))) return true;
+    return false;
+}
+
 bool looks_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
-    constexpr float rounding = 0.01f;     // half floats, 8-bit sources
+    if (cannot_be_packed(x, y, z)) return false;
     constexpr float unit_length = 0.03f;  // what filtering takes off the length inside a surface
     std::vector<float> raw, unpacked;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const float n[3] = {x[i], y[i], z[i]};
         if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
         if (!std::isfinite(n[0] + n[1] + n[2])) continue;
-        if (std::ranges::any_of(n, [](float c) { return c < -rounding || c > 1 + rounding; })) return false;
         raw.push_back(std::abs(std::hypot(n[0], n[1], n[2]) - 1));
         unpacked.push_back(std::abs(std::hypot(2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1) - 1));
     }
