@@ -90,7 +90,9 @@ bool GBufferReader::Impl::sample_packed_normals() const {
             read[axis] = std::span(planes[axis]).last(width);
             wanted.push_back({*place(normal_planes[axis]), planes[axis].data() + planes[axis].size() - width});
         }
-        reader->read(row, row + 1, wanted);
+        try {
+            reader->read(row, row + 1, wanted);
+        } catch (const Error&) { return false; }  // who reads all rows says which is the first that cannot be read
         if (io::cannot_be_packed(read[0], read[1], read[2])) return false;
     }
     return io::looks_packed(planes[0], planes[1], planes[2]);

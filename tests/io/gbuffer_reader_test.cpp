@@ -242,6 +242,20 @@ TEST(GBufferReader, NamesTheFirstRowOfATruncatedFile) {
     EXPECT_EQ(text.find('\n'), std::string::npos);
 }
 
+// Opening it looks into the middle of the file, for packed normals; that must not be what complains.
+TEST(GBufferReader, NamesTheFirstRowOfATruncatedFileOfNormals) {
+    TempFolder folder;
+    write_exr(folder / "cut.exr", 64, 256, {"N.X", "N.Y", "N.Z"},
+              [](int c, int x, int y) { return static_cast<float>((c + 7 * x + 131 * y) * 7919 % 10007) / 10007; });
+    std::filesystem::resize_file(folder / "cut.exr", std::filesystem::file_size(folder / "cut.exr") / 4);
+    const GBufferReader reader(folder / "cut.exr");
+    const auto text = error_of([&] { read(reader, 0, 256, {"normal.x", "normal.y", "normal.z"}); });
+    expect_mentions(text, {"cut.exr: row ", "of 256 cannot be read", "truncated"});
+    const int row = std::stoi(text.substr(text.find("row ") + 4));
+    EXPECT_GE(row, 32) << text;
+    EXPECT_LT(row, 80) << text;
+}
+
 TEST(GBufferReader, CryptomatteIdsComeThroughBitByBit) {
     TempFolder folder;
     auto spec = make_spec(2, 1, blender_channels);
