@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plan/geometry_text.h"
 
 namespace wrinkle {
@@ -10,7 +12,7 @@ namespace {
 std::string indented(const std::string& lines) {
     std::string text;
     for (std::size_t begin = 0, end; begin < lines.size(); begin = end) {
-        end = lines.find('\n', begin) + 1;
+        end = std::min(lines.find('\n', begin), lines.size() - 1) + 1;
         text += "    " + lines.substr(begin, end - begin);
     }
     return text;
