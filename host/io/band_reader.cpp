@@ -32,11 +32,16 @@ struct BandReader::Range {
     std::vector<WantedChannel> wanted;
 
     std::size_t channels() const { return static_cast<std::size_t>(end - begin); }
+    std::vector<int> wanted_indices() const {
+        std::vector<int> indices;
+        for (const auto& channel : wanted) indices.push_back(channel.place.index);
+        return indices;
+    }
 };
 
 BandReader::BandReader(std::unique_ptr<OIIO::ImageInput> input, std::filesystem::path file, Size size,
                        std::vector<Part> parts)
-    : input_(std::move(input)), file_(std::move(file)), size_(size), parts_(std::move(parts)) {}
+    : input_(std::move(input)), file_(std::move(file)), zip_blocks_(file_), size_(size), parts_(std::move(parts)) {}
 
 void BandReader::read(std::uint32_t row_begin, std::uint32_t row_end, std::span<const WantedChannel> wanted) {
     std::map<std::pair<int, bool>, Range> ranges;
@@ -99,20 +104,28 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
     const std::size_t row_floats = range.channels() * static_cast<std::size_t>(part.width);
     const int step = block_rows(part), end = std::min(round_down(y_end + step - 1, step), part.height);
     Held& held = held_[{range.part, range.whole_numbers}];
-    const bool follows = held.channels == std::pair{range.begin, range.end} && held.first <= y && y < held.last;
+    const bool follows = held.channels == range.wanted_indices() && held.first <= y && y < held.last;
     const int first = follows ? held.first : round_down(y, step);
     const int read_from = follows ? held.last : first, last = std::max(read_from, end);
     scratch_.resize(std::max(scratch_.size(), row_floats * static_cast<std::size_t>(last - first)));
     if (follows) std::ranges::copy(held.rows, scratch_.begin());
     const auto row = [&](int y_of) { return scratch_.data() + row_floats * static_cast<std::size_t>(y_of - first); };
-    if (read_from < end && !read_interleaved(*input_, range, read_from, end, row(read_from)))
+    if (read_from < end && !read_zip_blocks(range, read_from, end, row(read_from)) &&
+        !read_interleaved(*input_, range, read_from, end, row(read_from)))
         fail(range, read_from, end);
     const int keep = std::max(first, round_down(std::max(y_end - overlap, 0), step));
     if (row_floats * static_cast<std::size_t>(last - keep) > scratch_floats)  // tall tiles: rather read them again
         held = {};
     else
-        held = {{range.begin, range.end}, keep, last, {row(keep), row(last)}};
+        held = {range.wanted_indices(), keep, last, {row(keep), row(last)}};
     return first;
+}
+
+bool BandReader::read_zip_blocks(const Range& range, int y_begin, int y_end, float* out) {
+    std::vector<BlockChannel> channels;
+    for (const auto& channel : range.wanted)
+        channels.push_back({channel.place.stored_name, out + (channel.place.index - range.begin)});
+    return zip_blocks_.read(range.part, channels, y_begin, y_end, range.channels());
 }
 
 bool BandReader::read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, float* out) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/image_parts.h"
+#include "io/zip_blocks.h"
 
 namespace wrinkle::io {
 
@@ -34,19 +35,22 @@ private:
 
     /// The last blocks of a range, as they lay in the scratch.
     struct Held {
-        std::pair<int, int> channels{0, 0};
-        int first = 0, last = 0;  ///< data rows
+        std::vector<int> channels;  ///< others of the range may be missing
+        int first = 0, last = 0;    ///< data rows
         std::vector<float> rows;
     };
 
     void read_range(const Range& range, std::uint32_t row_begin, std::uint32_t row_end);
     /// Brings data rows [y, y_end) and the rest of their blocks into the scratch; returns the row that it begins with.
     int fetch(const Range& range, int y, int y_end);
+    /// False where they have to be read the slower way.
+    bool read_zip_blocks(const Range& range, int y_begin, int y_end, float* out);
     bool read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, float* out);
     [[noreturn]] void fail(const Range& range, int y_begin, int y_end);
 
     std::unique_ptr<OIIO::ImageInput> input_;
     std::filesystem::path file_;
+    ZipBlocks zip_blocks_;
     Size size_;
     std::vector<Part> parts_;
     std::vector<float> scratch_;                 ///< interleaved rows; kept, since fresh pages cost as much as the copy

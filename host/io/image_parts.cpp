@@ -73,10 +73,12 @@ ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file
         const auto part_name = spec.get_string_attribute("oiio:subimagename").operator std::string();
         for (int i = 0; i < spec.nchannels; ++i) {
             const auto format = spec.channelformat(i);
-            auto name = full_name(spec.channelnames[static_cast<std::size_t>(i)], part_name, part, several);
+            const auto& stored_name = spec.channelnames[static_cast<std::size_t>(i)];
+            auto name = full_name(stored_name, part_name, part, several);
             if (taken.contains(name)) name = fmt::format("{}.{}", part_name.empty() ? "part" : part_name, name);
             if (!taken.insert(name).second) continue;
-            result.channels.push_back({name, part, i, format == OIIO::TypeUInt32, format == OIIO::TypeHalf});
+            result.channels.push_back(
+                {name, stored_name, part, i, format == OIIO::TypeUInt32, format == OIIO::TypeHalf});
         }
         add_attributes(result.metadata.data().list, spec.extra_attribs);
     }

@@ -16,6 +16,7 @@ namespace wrinkle::io {
 /// Where one channel lies.
 struct ChannelPlace {
     std::string name;
+    std::string stored_name;  ///< in its part
     int part = 0, index = 0;
     bool whole_numbers = false;  ///< EXR UINT: its value is wanted, not a share of 2^32
     bool half = false;

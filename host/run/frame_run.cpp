@@ -1,18 +1,22 @@
 #include "run/frame_run.h"
 
 #include <algorithm>
-#include <future>
 #include <thread>
+
+#include "run/band_pipeline.h"
 
 namespace wrinkle {
 
 namespace {
 
 /// Rows of a band: whole ZIP blocks of EXR files, and enough of them for every core to decompress one while frames are
-/// up to 4096 wide. More would leave cores idle longer at a run's start and end. Three bands are in flight.
+/// up to 4096 wide. More would leave cores idle longer at a run's start and end.
 constexpr std::uint32_t kBlockRows = 16;
 constexpr std::size_t kCorePixels = std::size_t{1} << 16;
 constexpr std::size_t kMostCores = 16;  // memory is bounded on any machine
+
+/// Bands from reading to written: more than stages, as the time that a band takes to decompress or compress varies.
+constexpr std::uint32_t kInFlight = 5;
 
 std::uint32_t band_rows(Size size) {
     const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 2, kMostCores);
@@ -39,32 +43,32 @@ double FrameRun::run(const std::function<void(double)>& progress) {
     if (condition_ != nullptr) add_missing(names_, condition_->inputs());
     const Size size = pass_.size;
     const std::uint32_t rows = band_rows(size), halo = pass_.plan.neighbours ? 1 : 0;
-    std::array<Slot, 3> slots;
+    std::array<Slot, kInFlight> slots;
     for (Slot& slot : slots) {
         slot.inputs = PlaneBuffers(pass_.device, names_, std::size_t{size.width} * (rows + 2 * halo), sizeof(float));
         slot.outputs =
             PlaneBuffers(pass_.device, pass_.plan.outputs, std::size_t{size.width} * rows, pass_.bytes_per_output());
     }
-    std::future<void> reading, writing;
-    const auto start_reading = [&](std::uint32_t first, Slot& slot) {
-        slot.rows.first = first;
-        slot.rows.count = std::min(rows, size.height - first);
-        slot.rows.before = std::min(halo, first);
-        slot.rows.after = std::min(halo, size.height - first - slot.rows.count);
-        reading = std::async(std::launch::async, [&, this] { read(slot); });
+    const auto slot_of = [&](std::uint32_t band) -> Slot& { return slots[band % kInFlight]; };
+    const std::uint32_t bands = (size.height + rows - 1) / rows;
+    BandStages stages;
+    stages.read = [&](std::uint32_t band) {
+        const std::uint32_t first = band * rows, count = std::min(rows, size.height - first);
+        Slot& slot = slot_of(band);
+        slot.rows = {.first = first,
+                     .count = count,
+                     .before = std::min(halo, first),
+                     .after = std::min(halo, size.height - first - count)};
+        read(slot);
     };
-    start_reading(0, slots[0]);
-    for (std::uint32_t first = 0, band = 0; first < size.height; first += rows, ++band) {
-        Slot& slot = slots[band % 3];
-        reading.get();
-        slot.inputs.unmap();
-        if (first + rows < size.height) start_reading(first + rows, slots[(band + 1) % 3]);
-        evaluate(slot);
-        if (writing.valid()) writing.get();  // the slot before this one is free again
-        if (outputs_ != nullptr) writing = std::async(std::launch::async, [&, this] { write(slot); });
-        if (progress) progress(std::min(1.0, static_cast<double>(first + rows) / size.height));
-    }
-    if (writing.valid()) writing.get();
+    stages.evaluate = [&](std::uint32_t band) {
+        evaluate(slot_of(band));
+        if (progress) progress((band + 1.0) / bands);
+    };
+    stages.write = [&](std::uint32_t band) {
+        if (outputs_ != nullptr) write(slot_of(band));
+    };
+    run_bands(bands, kInFlight, stages);
     return kernel_seconds_;
 }
 
@@ -80,6 +84,7 @@ void FrameRun::read(Slot& slot) {
         const std::size_t rows = slot.rows.before + slot.rows.count + slot.rows.after;
         matches_->see(shown, rows * pass_.size.width);
     });
+    slot.inputs.unmap();
 }
 
 void FrameRun::evaluate(Slot& slot) {

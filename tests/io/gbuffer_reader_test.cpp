@@ -109,6 +109,9 @@ TEST(GBufferReader, BandsThatOverlapReadTheSame) {
         expect(48, 49, {file.depth, file.other});  // of other channels
         expect(47, 100, {normal});
         expect(98, 150, {normal});
+        const Plane other_axes[] = {{"normal.x", 0}, {"normal.y", 1}};
+        expect(20, 30, {other_axes[0], normal});  // the same range of channels, of which fewer and then all are wanted
+        expect(28, 40, {other_axes[0], other_axes[1], normal});
     }
 }
 

@@ -1,0 +1,224 @@
+#include "io/zip_blocks.h"
+
+#include <Imath/half.h>
+#include <OpenEXR/openexr.h>
+#include <OpenImageIO/parallel.h>
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wrinkle::io {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "EXR stores numbers so");
+
+struct StoredChannel {
+    std::string name;
+    bool half = false;
+    std::size_t row_bytes = 0;
+};
+
+struct StoredPart {
+    int top = 0, height = 0, block_rows = 0;
+    std::size_t width = 0, row_bytes = 0;
+    std::vector<StoredChannel> channels;  ///< in the order of a row
+};
+
+/// Empty for all but ZIP scanlines with one sample a pixel.
+std::optional<StoredPart> list(exr_const_context_t file, int part) {
+    exr_storage_t storage{};
+    exr_compression_t compression{};
+    exr_attr_box2i_t window{};
+    const exr_attr_chlist_t* channels = nullptr;
+    StoredPart result;
+    if (exr_get_storage(file, part, &storage) != EXR_ERR_SUCCESS || storage != EXR_STORAGE_SCANLINE ||
+        exr_get_compression(file, part, &compression) != EXR_ERR_SUCCESS ||
+        (compression != EXR_COMPRESSION_ZIP && compression != EXR_COMPRESSION_ZIPS) ||
+        exr_get_data_window(file, part, &window) != EXR_ERR_SUCCESS ||
+        exr_get_scanlines_per_chunk(file, part, &result.block_rows) != EXR_ERR_SUCCESS ||
+        exr_get_channels(file, part, &channels) != EXR_ERR_SUCCESS)
+        return {};
+    result.top = window.min.y;
+    result.height = window.max.y - window.min.y + 1;
+    result.width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
+    for (const auto& channel : std::span(channels->entries, static_cast<std::size_t>(channels->num_channels))) {
+        if (channel.x_sampling != 1 || channel.y_sampling != 1) return {};
+        const bool half = channel.pixel_type == EXR_PIXEL_HALF;
+        result.channels.push_back({channel.name.str, half, result.width * (half ? 2 : 4)});
+        result.row_bytes += result.channels.back().row_bytes;
+    }
+    return result;
+}
+
+/// Undoes what EXR does before it deflates a block: all even bytes come before all odd ones, and each of these is
+/// stored as its difference from the one before, plus 128.
+class PredictedBytes {
+public:
+    explicit PredictedBytes(std::span<const std::uint8_t> block) : even_(block.data()), odd_(even_ + block.size() / 2) {
+        odd_last_ = after(even_last_, even_, block.size() / 2);
+    }
+
+    void skip(std::size_t bytes) {
+        even_last_ = after(even_last_, even_, bytes / 2);
+        odd_last_ = after(odd_last_, odd_, bytes / 2);
+        even_ += bytes / 2, odd_ += bytes / 2;
+    }
+
+    void take(std::span<std::uint8_t> out) {
+        std::uint8_t even = even_last_, odd = odd_last_;
+        for (std::size_t i = 0; i < out.size() / 2; ++i) {
+            out[2 * i] = even = static_cast<std::uint8_t>(even + even_[i] - bias);
+            out[2 * i + 1] = odd = static_cast<std::uint8_t>(odd + odd_[i] - bias);
+        }
+        even_last_ = even, odd_last_ = odd;
+        even_ += out.size() / 2, odd_ += out.size() / 2;
+    }
+
+private:
+    static constexpr std::uint8_t bias = 128;
+
+    /// The last byte behind `count` differences; only their sum counts.
+    static std::uint8_t after(std::uint8_t last, const std::uint8_t* differences, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) last = static_cast<std::uint8_t>(last + differences[i]);
+        return static_cast<std::uint8_t>(last - count * bias);
+    }
+
+    const std::uint8_t *even_, *odd_;
+    std::uint8_t even_last_ = bias, odd_last_ = 0;  // the first byte is stored as it is
+};
+
+struct FreeDecompressor {
+    void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
+};
+
+/// What a thread needs for a block; kept, since fresh pages cost as much as the work in them.
+struct Workspace {
+    std::vector<std::uint8_t> packed, inflated, row;
+    std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor{libdeflate_alloc_decompressor()};
+};
+
+void convert(const std::uint8_t* row, const StoredPart& part, bool half, float* out, std::size_t stride) {
+    for (std::size_t x = 0; x < part.width; ++x) {
+        if (half) {
+            std::uint16_t bits;
+            std::memcpy(&bits, row + 2 * x, sizeof bits);
+            out[x * stride] = imath_half_to_float(bits);
+        } else {
+            std::memcpy(out + x * stride, row + 4 * x, sizeof(float));
+        }
+    }
+}
+
+}  // namespace
+
+struct ZipBlocks::Impl {
+    ~Impl() {
+        if (file != nullptr) exr_finish(&file);
+    }
+
+    std::unique_ptr<Workspace> borrow() {
+        const std::lock_guard lock(mutex);
+        if (idle.empty()) return std::make_unique<Workspace>();
+        auto workspace = std::move(idle.back());
+        idle.pop_back();
+        return workspace;
+    }
+
+    void give_back(std::unique_ptr<Workspace> workspace) {
+        const std::lock_guard lock(mutex);
+        idle.push_back(std::move(workspace));
+    }
+
+    /// `out` has a pointer for each stored channel: its first pixel of these rows, or null.
+    bool read_block(int index, int y, std::span<float* const> out, std::size_t stride, Workspace& work) const {
+        const StoredPart& part = *parts[static_cast<std::size_t>(index)];
+        const auto rows = static_cast<std::size_t>(std::min(part.block_rows, part.height - y));
+        exr_chunk_info_t chunk{};
+        if (exr_read_scanline_chunk_info(file, index, part.top + y, &chunk) != EXR_ERR_SUCCESS ||
+            chunk.unpacked_size != part.row_bytes * rows || chunk.packed_size > chunk.unpacked_size)
+            return false;
+        work.packed.resize(chunk.packed_size);
+        if (exr_read_chunk(file, index, &chunk, work.packed.data()) != EXR_ERR_SUCCESS) return false;
+        const bool deflated = chunk.packed_size < chunk.unpacked_size;  // else it would not have become smaller
+        if (deflated) {
+            work.inflated.resize(chunk.unpacked_size);
+            if (libdeflate_zlib_decompress(work.decompressor.get(), work.packed.data(), work.packed.size(),
+                                           work.inflated.data(), work.inflated.size(), nullptr) != LIBDEFLATE_SUCCESS)
+                return false;
+        }
+        PredictedBytes predicted(work.inflated);
+        const std::uint8_t* plain = work.packed.data();
+        for (std::size_t row = 0; row < rows; ++row) {
+            for (std::size_t c = 0; c < part.channels.size(); ++c) {
+                const StoredChannel& channel = part.channels[c];
+                float* const to = out[c] == nullptr ? nullptr : out[c] + row * part.width * stride;
+                if (!deflated) {
+                    if (to != nullptr) convert(plain, part, channel.half, to, stride);
+                    plain += channel.row_bytes;
+                } else if (to != nullptr) {
+                    work.row.resize(channel.row_bytes);
+                    predicted.take(work.row);
+                    convert(work.row.data(), part, channel.half, to, stride);
+                } else {
+                    predicted.skip(channel.row_bytes);
+                }
+            }
+        }
+        return true;
+    }
+
+    exr_context_t file = nullptr;
+    std::vector<std::optional<StoredPart>> parts;
+    std::mutex mutex;
+    std::vector<std::unique_ptr<Workspace>> idle;
+};
+
+ZipBlocks::ZipBlocks(const std::filesystem::path& file) : impl_(std::make_unique<Impl>()) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+    how.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    if (exr_start_read(&impl_->file, file.c_str(), &how) != EXR_ERR_SUCCESS) return;
+    int parts = 0;
+    exr_get_count(impl_->file, &parts);
+    for (int part = 0; part < parts; ++part) impl_->parts.push_back(list(impl_->file, part));
+}
+
+ZipBlocks::~ZipBlocks() = default;
+
+bool ZipBlocks::read(int part, std::span<const BlockChannel> channels, int y_begin, int y_end, std::size_t stride) {
+    if (static_cast<std::size_t>(part) >= impl_->parts.size() || !impl_->parts[static_cast<std::size_t>(part)])
+        return false;
+    const StoredPart& stored = *impl_->parts[static_cast<std::size_t>(part)];
+    if (y_begin % stored.block_rows != 0 || (y_end % stored.block_rows != 0 && y_end != stored.height)) return false;
+    std::vector<float*> out(stored.channels.size());
+    for (const auto& channel : channels) {
+        const auto found = std::ranges::find(stored.channels, channel.name, &StoredChannel::name);
+        if (found == stored.channels.end()) return false;
+        out[static_cast<std::size_t>(found - stored.channels.begin())] = channel.out;
+    }
+    const int blocks = (y_end - y_begin + stored.block_rows - 1) / stored.block_rows;
+    std::atomic<int> good = 0;
+    const auto read_some = [&](std::int64_t first, std::int64_t last) {
+        auto workspace = impl_->borrow();
+        for (auto block = first; block < last; ++block) {
+            const int row = static_cast<int>(block) * stored.block_rows;
+            std::vector<float*> rows = out;
+            for (float*& pixels : rows)
+                if (pixels != nullptr) pixels += static_cast<std::size_t>(row) * stored.width * stride;
+            if (impl_->read_block(part, y_begin + row, rows, stride, *workspace)) ++good;
+        }
+        impl_->give_back(std::move(workspace));
+    };
+    OIIO::parallel_for_chunked(0, blocks, 1, read_some);
+    return good == blocks;
+}
+
+}  // namespace wrinkle::io
