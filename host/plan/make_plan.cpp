@@ -146,10 +146,13 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         text += fmt::format("    global WR_SCALAR *restrict scratch_{},\n", plane);
     for (const std::string& plane : kernel.outputs)
         text += fmt::format("    global WR_SCALAR *restrict out_{},\n", identifier(plane).substr(3));
+    text += "    uint in_first, uint in_pixels, uint first_row, uint width, uint items";
+    if (plan.blocks) text += ", uint block_rows";
+    text += ")\n{\n    if (get_global_id(0) >= items) return;  // the global size is padded\n";
     text +=
-        "    uint in_first, uint in_pixels, uint first_row, uint width, uint pixels)\n{\n"
-        "    if (get_global_id(0) * WR_LANES >= pixels) return;  // the global size is padded\n"
-        "    wr_pixels at = wr_pixels_of(get_global_id(0), in_first, first_row, width);\n";
+        plan.blocks
+            ? "    wr_pixel_block at = wr_pixel_block_of(get_global_id(0), in_first, first_row, width, block_rows);\n"
+            : "    wr_pixels at = wr_pixels_of(get_global_id(0), in_first, first_row, width);\n";
     for (const Value& value : values())
         if (used.contains(value.name)) text += declare(value);
     text += load;
@@ -177,6 +180,8 @@ Plan make_plan(const Scene& scene, const Available& available, const PlanOptions
                   ("#include \"wrinkle.clh\"\n\n" + emitter.helpers);
 
     if (plan.projectors > 0) plan.tiles = emit_bins(emitter, plan.source);
+    // Not where kernels add to planes, since blocks may share pixels, nor where neighbours lie a lane further.
+    plan.blocks = plan.projectors > 0 && !plan.neighbours && !options.split;
 
     std::set<std::string> inputs;
     const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {

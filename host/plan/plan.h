@@ -120,6 +120,7 @@ struct Plan {
     std::size_t projectors = 0;          ///< rows of all tables together
     std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors are binned to
     bool neighbours = false;             ///< reads pixels of the rows above and below
+    bool blocks = false;                 ///< work-items may evaluate blocks of pixels instead of rows
     std::vector<SectionSummary> sections;
     double bytes = 0;  ///< expected per pixel: planes read and written once
 };

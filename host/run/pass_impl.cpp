@@ -28,6 +28,11 @@ std::size_t group_size(const PlannedKernel& kernel, int lanes) {
     return lanes > 1 && kernel.operations > kLong ? 8 : 64;
 }
 
+constexpr std::size_t kBlockWidth = 4;  // of kernels/surface/pixel_block.clh
+
+/// How many groups of `size` hold `count`.
+std::size_t groups_of(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
+
 /// A read-only buffer holding `count` numbers, narrowed to float unless the program computes in double.
 cl::Buffer numbers(const Device& device, const double* values, std::size_t count, bool fp64) {
     const std::size_t size = std::max<std::size_t>(count, 1);
@@ -140,9 +145,13 @@ void Pass::Impl::set_camera(const Camera& camera) {
 cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                               const std::vector<cl::Event>& wait, std::span<const Items> some) {
     const std::size_t pixels = std::size_t{rows.count} * size.width;
+    const auto lanes = static_cast<std::size_t>(options.lanes);
+    const std::size_t block_rows = lanes / kBlockWidth;
+    const bool blocks =
+        plan.blocks && some.empty() && block_rows > 1 && size.width >= kBlockWidth && rows.count >= block_rows;
     const std::size_t items =
-        (pixels + static_cast<std::size_t>(options.lanes) - 1) / static_cast<std::size_t>(options.lanes);
-    const std::size_t touched = items * static_cast<std::size_t>(options.lanes);  // whole lane groups
+        blocks ? groups_of(size.width, kBlockWidth) * groups_of(rows.count, block_rows) : groups_of(pixels, lanes);
+    const std::size_t touched = groups_of(pixels, lanes) * lanes;  // whole lane groups
     const std::size_t before = std::size_t{rows.before} * size.width;
     const std::size_t in_pixels = before + pixels + std::size_t{rows.after} * size.width;
     if (in_pixels > std::numeric_limits<cl_uint>::max()) throw Error("a band holds more than 2^32 pixels");
@@ -173,12 +182,13 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         kernel.setArg(i++, static_cast<cl_uint>(in_pixels));
         kernel.setArg(i++, static_cast<cl_uint>(rows.first));
         kernel.setArg(i++, static_cast<cl_uint>(size.width));
-        kernel.setArg(i++, static_cast<cl_uint>(pixels));
+        kernel.setArg(i++, static_cast<cl_uint>(items));
+        if (plan.blocks) kernel.setArg(i++, blocks ? static_cast<cl_uint>(rows.count) : cl_uint{0});
         const std::vector<cl::Event>* before_it = after.empty() ? nullptr : &after;
         std::vector<cl::Event> done(std::max<std::size_t>(some.size(), 1));
         const std::size_t group = group_size(plan.kernels[k], options.lanes);
         if (some.empty())
-            device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + group - 1) / group * group),
+            device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups_of(items, group) * group),
                                               cl::NDRange(group), before_it, done.data());
         for (std::size_t run = 0; run < some.size(); ++run)
             device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(some[run].first), cl::NDRange(some[run].count),

@@ -71,6 +71,31 @@ TEST(DecalTables, InDoubleAndInSplitKernels) {
     expect_within("double", normal_error(run<double>(pass, frame), truth), {3e-6, 2e-5, 2e-4}, "degrees");
 }
 
+/// Blocks of pixels share some at the borders, and do not fit into the smallest frames.
+TEST(DecalTables, OnFramesOfAnySize) {
+    const HostFrame whole = small_frame();
+    for (const Size size : {Size{1, 9}, {3, 3}, {9, 1}, {4, 2}, {4, 4}, {5, 7}, {33, 18}}) {
+        HostFrame frame = whole;
+        frame.frame.size = size;
+        for (auto& [name, plane] : frame.pixels) {
+            std::vector<float> part;
+            for (std::uint32_t y = 0; y < size.height; ++y) {
+                const auto row = plane.begin() + static_cast<std::ptrdiff_t>((y + 40) * whole.frame.size.width + 60);
+                part.insert(part.end(), row, row + size.width);
+            }
+            plane = std::move(part);
+        }
+        Scene scene = table_scene(on_surfaces(frame, 60, 0.1, 0.8, 26));
+        scene.layers[0].footprint = false;  // large where few pixels make a frame: nothing would be left to see
+        const Truth truth(frame, scene);
+        EXPECT_GT(bumped_pixels(truth), 0u);
+        for (const int lanes : {1, 4, 8, 16})
+            expect_within(fmt::format("{}x{} pixels on {} lanes", size.width, size.height, lanes),
+                          normal_error(evaluate_on(frame, scene, {.lanes = lanes}), truth), {2e-4, 2e-2, 0.2},
+                          "degrees");
+    }
+}
+
 /// Every shape with every content, clamped and tiled, by itself so that nothing hides an error.
 TEST(DecalTables, OfEveryShapeAndContent) {
     const HostFrame frame = small_frame();
