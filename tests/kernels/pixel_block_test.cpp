@@ -1,6 +1,9 @@
 // surface/pixel_block.clh
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/kernels/check.h"
 
 namespace wrinkle::test {
@@ -41,7 +44,7 @@ TEST(PixelBlock, BlocksCoverTheFrame) {
             }
 }
 
-/// Without rows the pixels follow each other as wr_pixels_of has them.
+/// Without rows they are the pixels of wr_pixels_of, each once.
 TEST(PixelBlock, RowsWhereBlocksDoNotFit) {
     constexpr std::size_t width = 3, pixels = width * 32;
     std::vector<float> plane(50 + pixels);
@@ -54,12 +57,15 @@ TEST(PixelBlock, RowsWhereBlocksDoNotFit) {
             const Results r = run_kernel({"wr_pixel_block b = wr_pixel_block_of(get_global_id(0), 50, 20, 3, 0);",
                                           {"b.x", "b.y", "wr_load(texels, b.in)", "wr_load(texels, b.out)"}},
                                          columns, {lanes, fp64}, data);
+            std::vector<int> seen(pixels);
             for (std::size_t i = 0; i < pixels; ++i) {
-                ASSERT_EQ(r[0][i], static_cast<double>(i % width) + 0.5) << i << " on " << lanes;
-                ASSERT_EQ(r[1][i], static_cast<double>(i / width) + 20.5) << i << " on " << lanes;
-                ASSERT_EQ(r[2][i], static_cast<double>(50 + i)) << i << " on " << lanes;
-                ASSERT_EQ(r[3][i], static_cast<double>(i)) << i << " on " << lanes;
+                const double pixel = r[3][i];
+                ASSERT_EQ(r[0][i], std::fmod(pixel, width) + 0.5) << i << " on " << lanes;
+                ASSERT_EQ(r[1][i], std::floor(pixel / width) + 20.5) << i << " on " << lanes;
+                ASSERT_EQ(r[2][i], 50 + pixel) << i << " on " << lanes;
+                ++seen.at(static_cast<std::size_t>(pixel));
             }
+            EXPECT_EQ(std::ranges::count(seen, 1), static_cast<std::ptrdiff_t>(pixels)) << lanes;
         }
 }
 
