@@ -154,7 +154,8 @@ struct ZipBlocks::Impl {
                                            work.inflated.data(), work.inflated.size(), nullptr) != LIBDEFLATE_SUCCESS)
                 return false;
         }
-        PredictedBytes predicted(work.inflated);
+        PredictedBytes predicted(deflated ? std::span<const std::uint8_t>(work.inflated)
+                                          : std::span<const std::uint8_t>{});
         const std::uint8_t* plain = work.packed.data();
         for (std::size_t row = 0; row < rows; ++row) {
             for (std::size_t c = 0; c < part.channels.size(); ++c) {

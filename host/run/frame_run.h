@@ -12,7 +12,7 @@
 
 namespace wrinkle {
 
-/// One frame in bands, three in flight: while one is evaluated the next is read and the last is written.
+/// One frame in bands, several in flight: while one is evaluated others are read and written.
 class FrameRun {
 public:
     FrameRun(Pass::Impl& pass, const GBufferReader& reader, PhaseClock& clock)

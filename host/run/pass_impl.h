@@ -30,7 +30,7 @@ struct Pass::Impl {
     Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
          const PlanOptions& plan_options);
 
-    /// Work-items of a band: `lanes` pixels each, from the band's first on.
+    /// Work-items of a band: `lanes` pixels each, one after another from the band's first on, never in blocks.
     struct Items {
         std::size_t first = 0, count = 0;
     };
