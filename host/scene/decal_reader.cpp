@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "scene/vec.h"
 
@@ -113,6 +114,10 @@ void DecalReader::end_row() {
     if (parallel(row.axis_x, row.axis_y))
         wrong({"axis_x_x", "axis_x_y", "axis_x_z", "axis_y_x", "axis_y_y", "axis_y_z"},
               "must be two axes, not parallel, nor zero");
+}
+
+void DecalReader::append(std::vector<Projector> rows) {
+    rows_.insert(rows_.end(), std::make_move_iterator(rows.begin()), std::make_move_iterator(rows.end()));
 }
 
 std::vector<Projector> DecalReader::finish() {

@@ -39,6 +39,8 @@ public:
     /// A field that is no text or number for this column.
     void refuse(const DecalColumn& column, const std::string& found, const std::string& wrong);
     void end_row();
+    /// Rows that another reader finished.
+    void append(std::vector<Projector> rows);
 
     /// Throws Error if anything was wrong.
     std::vector<Projector> finish();

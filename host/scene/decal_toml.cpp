@@ -4,13 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cmath>
-#include <deque>
-#include <future>
 #include <map>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "io/csv_table.h"
 #include "scene/decal_reader.h"
@@ -109,24 +109,44 @@ private:
 struct Piece {
     std::string_view text;
     std::uint32_t first_line = 1;
+    bool is_all = false;
 };
 
 /// Whole tables each, to be parsed one by one: toml++ takes far longer over, and far more memory for, one large text.
 std::vector<Piece> pieces_of(std::string_view text) {
-    constexpr std::size_t kPiece = std::size_t{1} << 18;
+    constexpr std::size_t kPiece = std::size_t{1} << 16;
     constexpr std::string_view kStart = "\n[[decal]]";
     std::vector<Piece> pieces;
     // Only in a text of many lines may such a line be anything but the start of a table.
     const bool whole = text.find("\"\"\"") != text.npos || text.find("'''") != text.npos;
     std::uint32_t line = 1;
-    while (!text.empty()) {
+    do {
         const std::size_t end = whole || text.size() < kPiece ? text.npos : text.find(kStart, kPiece);
         const std::string_view piece = text.substr(0, end == text.npos ? end : end + 1);
-        pieces.push_back({piece, line});
+        pieces.push_back({piece, line, pieces.empty() && end == text.npos});
         line += static_cast<std::uint32_t>(std::ranges::count(piece, '\n'));
         text.remove_prefix(piece.size());
-    }
+    } while (!text.empty());
     return pieces;
+}
+
+void read_piece(DecalReader& reader, const std::string& name, const Piece& piece) {
+    RowReader rows(reader);
+    const toml::table table = parse_toml(piece.text, name, piece.first_line);
+    for (const auto& [key, value] : table) {
+        const std::uint32_t line = key.source().begin.line + piece.first_line - 1;
+        const toml::array* decals = value.as_array();
+        if (key.str() != "decal") {
+            reader.complain_of_file(
+                line, fmt::format("unknown key {}; a table of decals holds [[decal]] only", quote(key.str())));
+        } else if (decals == nullptr || !std::ranges::all_of(*decals, &toml::node::is_table)) {
+            reader.complain_of_file(line, "\"decal\" must be an array of tables: [[decal]]");
+        } else {
+            for (const toml::node& decal : *decals) rows.read(*decal.as_table(), piece.first_line);
+        }
+    }
+    if (piece.is_all && !table.contains("decal"))
+        reader.complain_of_file(0, "holds no [[decal]], which needs at least center = [x, y, z]");
 }
 
 std::string toml_value(const DecalColumn& column, const Projector& row) {
@@ -151,34 +171,32 @@ bool is_toml(const std::filesystem::path& file) {
 std::vector<Projector> load_decal_toml(const std::filesystem::path& file, std::size_t textures) {
     const std::string text = io::read_text(file), name = file.string();
     DecalReader reader(name, textures, DecalReader::Form::toml);
-    RowReader rows(reader);
     const std::vector<Piece> pieces = pieces_of(text);
-    const std::size_t ahead = std::max(1u, std::thread::hardware_concurrency());
-    std::deque<std::future<toml::table>> parsed;
-    bool any = false;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        for (std::size_t next = i + parsed.size(); parsed.size() < ahead && next < pieces.size(); ++next)
-            parsed.push_back(std::async(std::launch::async, [&, next] {
-                return parse_toml(pieces[next].text, name, pieces[next].first_line);
-            }));
-        const toml::table table = parsed.front().get();
-        parsed.pop_front();
-        const std::uint32_t first_line = pieces[i].first_line;
-        for (const auto& [key, value] : table) {
-            const std::uint32_t line = key.source().begin.line + first_line - 1;
-            const toml::array* decals = value.as_array();
-            if (key.str() != "decal") {
-                reader.complain_of_file(
-                    line, fmt::format("unknown key {}; a table of decals holds [[decal]] only", quote(key.str())));
-            } else if (decals == nullptr || !std::ranges::all_of(*decals, &toml::node::is_table)) {
-                reader.complain_of_file(line, "\"decal\" must be an array of tables: [[decal]]");
-            } else {
-                for (const toml::node& decal : *decals) rows.read(*decal.as_table(), first_line);
+    std::vector<std::vector<Projector>> sound(pieces.size());  // rows of pieces without mistakes
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < pieces.size(); i = next++) {
+            DecalReader alone(name, textures, DecalReader::Form::toml);
+            try {
+                read_piece(alone, name, pieces[i]);
+                sound[i] = alone.finish();
+            } catch (const Error&) {
+                continue;  // it is read again below, to say what is wrong where: decals are counted from the first
             }
-            any = any || key.str() == "decal";
         }
+    };
+    {
+        const std::size_t workers =
+            std::min<std::size_t>(pieces.size(), std::max(1u, std::thread::hardware_concurrency()));
+        std::vector<std::jthread> others(workers - 1);
+        for (std::jthread& other : others) other = std::jthread(work);
+        work();
     }
-    if (!any) reader.complain_of_file(0, "holds no [[decal]], which needs at least center = [x, y, z]");
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (sound[i].empty())
+            read_piece(reader, name, pieces[i]);
+        else
+            reader.append(std::exchange(sound[i], {}));
     return reader.finish();
 }
 

@@ -1,3 +1,4 @@
+#define TOML_IMPLEMENTATION
 #include "scene/toml.h"
 
 #include <fmt/format.h>

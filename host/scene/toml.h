@@ -1,11 +1,14 @@
 #pragma once
 
-// The only place that includes toml++. Its version 3.3 asserts, or under clang with NDEBUG assumes, that keys begin
-// well, although its next lines refuse those that do not: a file with "[=]" would end the program. So its assertions
-// are off, whatever the build type; asserting nothing needs NDEBUG hidden, because toml++ overrides us under it.
+// The only place that includes toml++, which toml.cpp builds: as Debian's library it reads floats by streams, and takes
+// twice as long over a large table. Its version 3.3 asserts, or under clang with NDEBUG assumes, that keys begin well,
+// although its next lines refuse those that do not: a file with "[=]" would end the program. So its assertions are off,
+// whatever the build type; asserting nothing needs NDEBUG hidden, because toml++ overrides us under it.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(expr) static_assert(true)
+#define TOML_FLOAT_CHARCONV 1
+#define TOML_HEADER_ONLY 0
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
 

@@ -112,6 +112,7 @@ TEST_F(DecalToml, CountsDecalsAndLinesOfLargeTables) {
             ASSERT_EQ(rows[static_cast<std::size_t>(i)].line, skipped + 1 + 4 * static_cast<std::uint32_t>(i));
         }
     }
+    EXPECT_EQ(read(std::string(600'000, '#') + "\n" + text).size(), static_cast<std::size_t>(count));
     expect_refused(text + "[[decal]]\nscale = 2\n", {"decals.toml:80002: [[decal]] 20001: needs the key \"center\""});
     expect_refused(text + "[[decal]]\ncenter = [\n", {"decals.toml:8000", "not valid TOML"});
 }
