@@ -94,7 +94,8 @@ std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section
 }
 
 /// Sets uv and uv_valid, from the best the G-buffer has.
-std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& section) {
+std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::vector<const Layer*>& mapped,
+                    Section& section) {
     section.inputs.insert({"uv.u", "uv.v"});
     std::string text =
         "        floats u = wr_load_floats(in_uv_u, at.in), v = wr_load_floats(in_uv_v, at.in);\n"
@@ -134,7 +135,11 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, Section& sec
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        text += "        mask usable = uv_valid;\n        if (wr_any(usable)) {\n" +
+        // Pixels that no layer wants them at are spared the neighbours, unless it is written which have none.
+        const bool everywhere = emitter.options.split || !emitter.options.skip || emitter.scene.output.marked;
+        const std::string wanted = everywhere ? "" : emit_wanted(emitter, mapped, section);
+        text += wanted + fmt::format("        mask usable = uv_valid{};\n", wanted.empty() ? "" : " & wanted") +
+                "        if (wr_any(usable)) {\n" +
                 indented(neighbours_text(
                     emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))", "uv_valid",
                     [](const char* axis, const std::string& before, const std::string& after) {
@@ -204,7 +209,8 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
     return "        vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
            sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
            load_normal("wr_load_floats({}, at.in)", "        ") +
-           "        vec3 unturned = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), n));\n"
+           "        vec3 unturned = wr_renormalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), "
+           "n));\n"
            "        vec3 step_dx, step_dy;\n        {\n        vec3 n = unturned, dp_dx, dp_dy;\n" +
            face_viewer_text(emitter) + derivative_text(emitter) +
            "        step_dx = dp_dx, step_dy = dp_dy;\n        }\n" +
@@ -217,7 +223,7 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
                height, differences);
 }
 
-Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
+Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const std::vector<const Layer*>& mapped) {
     const GeometryText geometry = geometry_text(emitter);
     Section section;
     section.title = "decode the G-buffer";
@@ -246,7 +252,7 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
         text +=
             "        n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
             "(real)(1)));\n"
-            "        n = wr_normalize(n);\n"
+            "        n = wr_renormalize(n);\n"
             "        vec3 unturned = n;\n";
         text += "        {\n" + face_viewer_text(emitter) +
                 "        marked += (valid & away) ? (real)(2) : (real)(0);\n        }\n";
@@ -260,12 +266,12 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted) {
         section.writes.insert("base");
     }
     if (wanted.contains("dp_dx")) {
-        text += "        {\n" + derivative_text(emitter) + "        }\n";
+        text += "        {\n" + derivative_text(emitter, geometry.along) + "        }\n";
         section.writes.insert({"dp_dx", "dp_dy"});
         section.operations += 62;
     }
     if (wanted.contains("uv")) {
-        text += emit_uv(emitter, geometry, section);
+        text += emit_uv(emitter, geometry, mapped, section);
         section.writes.insert({"uv", "uv_valid"});
     }
     if (wanted.contains("vertex_tb")) {

@@ -4,37 +4,53 @@
 
 namespace wrinkle {
 
-Section emit_resolve(Emitter& emitter, bool surface, bool volume, bool more, const std::set<std::string>& wanted) {
+namespace {
+
+/// What the next stage needs of the bent surface.
+std::string emit_next_stage(const Emitter& emitter, const StageEnd& stage, Section& section) {
+    std::string text = "        {\n" + face_viewer_text(emitter) + "        }\n        n = wr_select(bent, n, flat);\n";
+    section.reads.insert("p");
+    if (!stage.wants_derivatives) return text;
+    if (stage.derivatives) section.reads.insert({"dp_dx", "dp_dy"});
+    section.writes.insert({"dp_dx", "dp_dy"});
+    section.operations += 62;
+    if (!stage.derivatives) return text;
+    return text + "        vec3 flat_dx = dp_dx, flat_dy = dp_dy;\n        {\n" + derivative_text(emitter) +
+           "        }\n"
+           "        dp_dx = wr_select(bent, dp_dx, flat_dx), dp_dy = wr_select(bent, dp_dy, flat_dy);\n";
+}
+
+}  // namespace
+
+Section emit_resolve(Emitter& emitter, const StageEnd& stage) {
     Section section;
     section.title = "resolve";
-    section.reads = {"valid", "n"};
-    section.writes = {"n", "g"};
+    section.reads = {"valid", "marked", "n"};
+    section.writes = {"marked", "n", "g"};
+    section.operations = 24;
+    std::string sums;
+    if (stage.surface || stage.volume) section.reads.insert("g"), sums = "wr_nonzero(g)";
+    if (stage.volume) section.reads.insert("dh_dp"), sums += " | wr_nonzero(dh_dp)";
+    // What nothing bends stays as it is, bit by bit.
+    const bool skip = emitter.options.skip && !sums.empty() && !stage.moves;
     std::string& text = section.body;
-    if (surface || volume) section.reads.insert("g");
-    if (volume) {
-        section.reads.insert("dh_dp");
+    text = skip ? fmt::format("        mask bent = valid & ({});\n        if (wr_any(bent)) {{\n", sums)
+                : "        mask bent = valid;\n        {\n";
+    if (stage.volume) {
         text += "        g = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
         section.operations += 30;
     }
     text +=
-        "        vec3 bumped = wr_resolve(n, g);\n"
+        "        vec3 flat = n, bumped = wr_resolve(n, g);\n"
         "        mask sound = wr_sound(bumped);\n"
-        "        n = wr_select(valid & sound, bumped, n);\n"
-        "        marked += (valid & !sound & (marked < 8)) ? (real)(8) : (real)(0);\n";
-    section.reads.insert("marked");
-    section.writes.insert("marked");
-    section.operations += 24;
-    if (!more) return section;
-
-    section.reads.insert("p");
+        "        n = wr_select(bent & sound, bumped, n);\n"
+        "        marked += (bent & !sound & (marked < 8)) ? (real)(8) : (real)(0);\n";
+    if (stage.more) text += emit_next_stage(emitter, stage, section);
+    text += "        }\n";
+    if (!stage.more) return section;
+    if (stage.wants_derivatives && !stage.derivatives) text += "        {\n" + derivative_text(emitter) + "        }\n";
     section.writes.insert("dh_dp");
-    text +=
-        "        {\n" + face_viewer_text(emitter) + "        }\n        g = wr_zero3();\n        dh_dp = wr_zero3();\n";
-    if (wanted.contains("dp_dx")) {
-        text += "        {\n" + derivative_text(emitter) + "        }\n";
-        section.writes.insert({"dp_dx", "dp_dy"});
-        section.operations += 62;
-    }
+    text += "        g = wr_zero3();\n        dh_dp = wr_zero3();\n";
     return section;
 }
 
@@ -60,17 +76,21 @@ Section emit_lighting(Emitter& emitter) {
                 : "        vec3 albedo = wr_v3(lighting->albedo);\n";
     text += planes({"roughness"}) ? "        real roughness = wr_load(in_roughness, at.in);\n"
                                   : "        real roughness = lighting->roughness;\n";
-    text += "        lit = wr_light_surface(p, n, v, albedo, roughness, lighting, lights);\n";
-    section.operations = 20 + 75.0 * static_cast<double>(lighting.lights.size());
+    const double lights = static_cast<double>(lighting.lights.size());
     if (!ratio) {
-        text += "        lit = wr_select(valid, lit, wr_zero3());\n";
+        text +=
+            "        lit = wr_light_surface(p, n, v, albedo, roughness, lighting, lights);\n"
+            "        lit = wr_select(valid, lit, wr_zero3());\n";
+        section.operations = 20 + 75 * lights;
         return section;
     }
     emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
     planes({"beauty.r", "beauty.g", "beauty.b"});
     section.reads.insert("base");
-    section.operations *= 2;
-    text += "        vec3 old = wr_light_surface(p, base, v, albedo, roughness, lighting, lights);\n";
+    section.operations = 40 + 125 * lights;
+    text +=
+        "        vec3 old;\n"
+        "        lit = wr_light_surface(p, n, base, v, albedo, roughness, lighting, lights, &old);\n";
     const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
     for (const auto& part : parts)
         text += fmt::format(

@@ -42,7 +42,10 @@ std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, cons
                        literal(s), literal(t), 4 * origin, 4 * origin + 1);
 }
 
-std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
+namespace {
+
+/// Kernel text that sets `m` to the product of what planes say of a mask.
+std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
     std::string text = "        real m = 1;\n";
@@ -74,6 +77,26 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
         section.inputs.insert(plane);
         factor(fmt::format("wr_mask_channel(wr_load({}, at.in))", identifier(plane)));
     }
+    return text;
+}
+
+}  // namespace
+
+std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section) {
+    std::string text = "        mask wanted = 0;\n";
+    for (const Layer* layer : layers) {
+        const Mask& mask = layer->mask;
+        if (!(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert)) return {};
+        text += "        {\n" + mask_of_planes(emitter, *layer, section) + (mask.invert ? "        m = 1 - m;\n" : "") +
+                "        wanted = wanted | (m != 0);\n        }\n";
+    }
+    return text;
+}
+
+std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
+    const std::string who = layer_label(layer) + ": its mask";
+    const Mask& mask = layer.mask;
+    std::string text = mask_of_planes(emitter, layer, section);
     if (mask.texture) {
         const std::size_t number = emitter.texture({.file = mask.texture->file}, TexelKind::mask);
         text += "        {\n" + emit_texcoord(emitter, mask.texture->uv, Wrap::repeat, who, section);

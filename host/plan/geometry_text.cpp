@@ -24,6 +24,7 @@ GeometryText geometry_text(const Emitter& emitter) {
                 parallel              ? "vec3 p = wr_parallel_position(frame, x, y, wr_real(z));"
                 : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
                                       : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));",
+                parallel || available.ray_depth ? "wr_along_ray(p, d)" : "wr_real(z)",
                 parallel              ? ""
                 : available.ray_depth ? "wr_distant_position_pairs(frame, x, y, wr_real(z))"
                                       : "wr_position_pairs(frame, x, y, wr_real(z))",
@@ -43,6 +44,7 @@ GeometryText geometry_text(const Emitter& emitter) {
     return {{"position.x", "position.y", "position.z"},
             "wr_valid_position(px, py, pz)",
             "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));",
+            "wr_along_ray(p, d)",
             "wr_eye_relative_pairs(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)))",
             "vec3 from",
             "wr_v3(wr_real(px), wr_real(py), wr_real(pz))",
@@ -87,15 +89,15 @@ const char* to_viewer_text(const Emitter& emitter) {
                : "wr_normalize(wr_scale(p, (real)(-1)))";
 }
 
-std::string derivative_text(const Emitter& emitter) {
+std::string derivative_text(const Emitter& emitter, const std::string& along) {
     const bool exact = emitter.geometry_precision() == Precision::exact;
     if (emitter.available.camera != CameraKind::pinhole)
         return fmt::format("        wr_screen_derivatives_general{}(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n",
                            exact ? "_exact" : "");
     const std::string ray = "        vec3 d = wr_ray(frame, at.x, at.y);\n";
     if (exact)
-        return ray + "        wr_screen_derivatives_exact(frame, n, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
-    return ray + "        wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), at.x, at.y, &dp_dx, &dp_dy);\n";
+        return ray + "        wr_screen_derivatives_exact(frame, n, " + along + ", at.x, at.y, &dp_dx, &dp_dy);\n";
+    return ray + "        wr_screen_derivatives(frame, n, d, " + along + ", at.x, at.y, &dp_dx, &dp_dy);\n";
 }
 
 std::string face_viewer_text(const Emitter& emitter) {

@@ -12,8 +12,9 @@ namespace {
 /// The layers between two resolves.
 struct Stage {
     std::vector<Section> layers;
+    std::vector<const Layer*> mapped;  ///< those by texture coordinates
     std::set<std::string> reads;
-    bool surface = false, volume = false;
+    StageEnd end;
 };
 
 std::vector<Stage> emit_stages(Emitter& emitter) {
@@ -31,9 +32,11 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
         Stage& stage = stages.back();
         stage.layers.push_back(emit_layers(emitter, together));
         const Section& section = stage.layers.back();
+        if (section.reads.contains("uv")) stage.mapped.push_back(together.front());
         stage.reads.insert(section.reads.begin(), section.reads.end());
-        stage.surface |= section.writes.contains("g");
-        stage.volume |= section.writes.contains("dh_dp");
+        stage.end.surface |= section.writes.contains("g");
+        stage.end.volume |= section.writes.contains("dh_dp");
+        stage.end.moves |= section.writes.contains("p");
         i += count;
     }
     return stages;
@@ -43,14 +46,17 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
 std::vector<Section> emit_sections(Emitter& emitter) {
     std::vector<Stage> stages = emit_stages(emitter);
     std::set<std::string> first = stages.front().reads;
+    std::vector<const Layer*> mapped;
     for (const Stage& stage : stages) {  // decoded once, for all stages; texture coordinates need derivatives
+        mapped.insert(mapped.end(), stage.mapped.begin(), stage.mapped.end());
         if (stage.reads.contains("uv")) first.insert({"uv", "dp_dx"});
         if (stage.reads.contains("vertex_tb")) first.insert("vertex_tb");
         if (stage.reads.contains("p_low")) first.insert("p_low");
         if (stage.reads.contains("dn_dx")) first.insert({"dn_dx", "dp_dx"});
     }
     const Output& output = emitter.scene.output;
-    if (output.dp_dx || output.dp_dy) first.insert("dp_dx");
+    const bool written = output.dp_dx || output.dp_dy;  // those of the last stage's surface
+    if (written) first.insert("dp_dx");
     const bool relight = emitter.scene.lighting.relight != Relight::off;
     if (emitter.scene.lighting.relight == Relight::ratio) first.insert("base");
 
@@ -59,18 +65,19 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         section.stage = stage;
         sections.push_back(std::move(section));
     };
-    add(emit_decode(emitter, first), 0);
-    bool bumped = false;
+    add(emit_decode(emitter, first, mapped), 0);
+    bool bumped = false, derivatives = first.contains("dp_dx");
     for (std::size_t s = 0; s < stages.size(); ++s) {
         Stage& stage = stages[s];
         for (Section& layer : stage.layers) add(std::move(layer), static_cast<int>(s));
-        const bool more = s + 1 < stages.size();
-        if (emitter.options.write_normal && (stage.surface || stage.volume || more)) {
-            std::set<std::string> next = more ? stages[s + 1].reads : std::set<std::string>{};
-            if (output.dp_dx || output.dp_dy) next.insert("dp_dx");  // written: those of the last stage's surface
-            add(emit_resolve(emitter, stage.surface, stage.volume, more, next), static_cast<int>(s));
-            bumped |= stage.surface || stage.volume;
-        }
+        const bool bends = stage.end.surface || stage.end.volume;
+        stage.end.more = s + 1 < stages.size();
+        if (!emitter.options.write_normal || !(bends || stage.end.more)) continue;
+        stage.end.derivatives = derivatives;
+        derivatives = written || (stage.end.more && stages[s + 1].reads.contains("dp_dx"));
+        stage.end.wants_derivatives = derivatives;
+        add(emit_resolve(emitter, stage.end), static_cast<int>(s));
+        bumped |= bends;
     }
     const int last = static_cast<int>(stages.size()) - 1;
     if (relight && emitter.options.write_normal) add(emit_lighting(emitter), last);

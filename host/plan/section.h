@@ -71,22 +71,32 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 std::size_t layers_together(const std::vector<Layer>& layers, std::size_t first);
 /// Kernel text that sets `m`, in [0,1], and the planes it reads.
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
+/// Kernel text that declares `wanted`, true at least where one of the layers is; nothing where that may be anywhere.
+std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section);
 /// Kernel text that declares the texture coordinates `c` of a mapping.
 std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, const std::string& who, Section& section);
-/// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` the stage needs.
-Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted);
+/// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` is needed; texture coordinates by `mapped`.
+Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const std::vector<const Layer*>& mapped);
 /// Kernel text that declares `dh`, the change of a height plane from pixel to pixel, 0 and marked where there is none.
 std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section);
 /// The kernel that measures the tiles of the frame, for the bins of decals.
 PlannedKernel emit_tiles(const Emitter& emitter, std::string& source);
 /// The kernels that bin decals; gives the one that measures tiles, which reads planes.
 PlannedKernel emit_bins(const Emitter& emitter, std::string& source);
-/// Kernel text that sets dp_dx and dp_dy of p and n.
-std::string derivative_text(const Emitter& emitter);
+/// Kernel text that sets dp_dx and dp_dy of p and n; `along`: p is that often the pixel's ray.
+std::string derivative_text(const Emitter& emitter, const std::string& along = "wr_along_ray(p, d)");
 /// Kernel text that turns n towards the viewer; `away` where it had to.
 std::string face_viewer_text(const Emitter& emitter);
-/// Ends a stage: projects, resolves, and sets up the next stage if `wanted` names what that needs.
-Section emit_resolve(Emitter& emitter, bool surface, bool volume, bool more, const std::set<std::string>& wanted);
+/// How a stage ends.
+struct StageEnd {
+    bool surface = false, volume = false;  ///< layers add to g, to dh_dp
+    bool moves = false;                    ///< layers move points
+    bool more = false;                     ///< another stage follows
+    bool derivatives = false;              ///< dp_dx and dp_dy are those of this stage's n
+    bool wants_derivatives = false;        ///< those of the bent surface are wanted
+};
+/// Projects, resolves, and sets up the next stage if there is one.
+Section emit_resolve(Emitter& emitter, const StageEnd& stage);
 Section emit_lighting(Emitter& emitter);
 /// Stores what the scene wants written.
 Section emit_output(Emitter& emitter, bool bumped);

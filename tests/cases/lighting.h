@@ -18,7 +18,8 @@ inline Lighting test_lighting() {
     return lighting;
 }
 
-/// A surface under a sun, a point and a spot light; constants: one wr_lighting and its lights. Regular: rough surfaces.
+/// A surface under a sun, a point and a spot light, with its own normal n and with another one, m; constants: one
+/// wr_lighting and its lights. Regular: rough surfaces.
 /// Hard: highlights of smooth ones, grazing views, surfaces at a light or behind all.
 inline Cases lighting_cases() {
     Cases c{.name = "lighting"};
@@ -44,6 +45,8 @@ inline Cases lighting_cases() {
         c.add("lighting, seed " + std::to_string(seed), hard);
         c.in("p", p), c.in("n", n), c.in("v", v), c.in("roughness", surface.roughness);
         c.out("lit", reference::lit(lighting, normalize(n), normalize(v), p, surface));
+        const V m = hard ? random.unit() : Random::rounded(normalize(n + random.unit() * 0.5L));
+        c.in("m", m), c.out("base", reference::lit(lighting, normalize(m), normalize(v), p, surface));
     }
     return c;
 }

@@ -18,6 +18,17 @@ TEST(Lighting, RadianceOfThreeLights) {
             1e-11}});
 }
 
+TEST(Lighting, TwoNormalsAtOnce) {
+    check(
+        cases::lighting_cases(),
+        light_it +
+            "vec3 base, both = wr_light_surface(p, unit(n), unit(m), unit(v), albedo, roughness, lighting, "
+            "lights, &base);",
+        {{"lit", xyz("both"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative, 1e-11},
+         {"base", xyz("base"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative,
+          1e-11}});
+}
+
 TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
     const float z = 1, far = 1e20f, near = 1e-20f;
     const Columns columns{{"p.x", {2, 2 + 1e-6f, far, near, 2}},

@@ -59,6 +59,36 @@ TEST(Vec, NormalizeOfAnyLength) {
           {{"unit", xyz("r"), ErrorMeasure::absolute, 0, 2.4e-7}, {"unit", xyz("r"), ErrorMeasure::degrees, 0, 1e-5}});
 }
 
+/// Stored normals; short, long and broken ones do not change what others in their lanes get.
+TEST(Vec, RenormalizeOfNearlyUnitVectors) {
+    cases::Cases c{.name = "renormalize"};
+    for (unsigned seed = 1; seed <= 600; ++seed) {
+        cases::Random random(seed);
+        const bool hard = seed % 3 == 0;
+        const real size = hard ? random.magnitude(-30, 30) : 1 + random.uniform(-0.0085L, 0.0085L);
+        const V v = cases::Random::rounded(random.unit() * size);
+        c.add("renormalize, seed " + std::to_string(seed), hard);
+        c.in("v", v), c.out("unit", normalize(v));
+    }
+    check(c, "vec3 r = wr_renormalize(v);",
+          {{"unit", xyz("r"), ErrorMeasure::absolute, 1.2e-7, 2.4e-7},
+           {"unit", xyz("r"), ErrorMeasure::degrees, 4e-6, 1e-5}});
+    Columns columns;
+    for (const char axis : {'x', 'y', 'z'})
+        for (std::size_t i = 0; i < c.size(); ++i)
+            columns[std::string("v.") + axis].push_back(c.inputs.at(std::string("v.") + axis)[i]);
+    const Results alone = run_kernel({"vec3 r = wr_renormalize(v);", xyz("r")}, columns, {1, false});
+    EXPECT_EQ(run_kernel({"vec3 r = wr_renormalize(v);", xyz("r")}, columns, {16, false}), alone);
+}
+
+TEST(Vec, NonzeroWhereAComponentIs) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Columns columns{
+        {"v.x", {0, -0.0f, 1e-30f, 0, 0, nan}}, {"v.y", {0, 0, 0, -2, 0, 0}}, {"v.z", {0, -0.0f, 0, 0, 3, 0}}};
+    const Results r = run_kernel({"real r = wr_nonzero(v) ? (real)(1) : (real)(0);", {"r"}}, columns, {8, false});
+    EXPECT_EQ(r[0], (std::vector<double>{0, 0, 1, 1, 1, 1}));
+}
+
 TEST(Vec, PrescaleIsAPowerOfTwoThatBringsSizesNearOne) {
     Columns columns;
     for (int e = -126; e < 127; ++e)
