@@ -4,7 +4,7 @@
 
 The algorithm hashes the corners of a cell by p[p[p[x] + y] + z] and chooses one of twelve gradients, four of them
 twice, by the low four bits of the last hash. Corners come in neighbouring pairs, so wr_perlin_hash holds p[i] and
-p[i + 1] in one ushort, wr_perlin_choice the low four bits of both in one byte, two to a ushort, and
+p[i + 1] in one ushort, wr_perlin_choice the low four bits of both in one byte, those of i and i + 128 in a ushort, and
 wr_perlin_gradient the gradient of p[i] in one uint: three components of 9 bits, which are the sign and the exponent of
 the floats -1, 0 and 1; pairs of it are read from any i, hence its length.
 """
@@ -38,7 +38,7 @@ constant ushort wr_perlin_hash[256] = {"""
 CHOICE_HEADER = """\
 };
 
-// The low four bits of p[i] and p[i + 1], in one byte for each i.
+// The low four bits of p[i] and p[i + 1]; in the high byte, of p[i + 128] and p[i + 129].
 constant ushort wr_perlin_choice[128] = {"""
 
 DIRECTIONS_HEADER = """\
@@ -79,7 +79,7 @@ print(HASH_HEADER)
 print_rows([f"{p[i] | p[i + 1] << 8:5d}" for i in range(256)], 16)
 choice = [p[i] & 15 | (p[i + 1] & 15) << 4 for i in range(256)]
 print(CHOICE_HEADER)
-print_rows([f"{choice[i] | choice[i + 1] << 8:5d}" for i in range(0, 256, 2)], 16)
+print_rows([f"{choice[i] | choice[i + 128] << 8:5d}" for i in range(128)], 16)
 print(DIRECTIONS_HEADER)
 for h in range(16):
     print(f"#define WR_PERLIN_G{h:X} 0x{packed(gradient(h)):08x}")

@@ -32,7 +32,7 @@ TEST(NoiseTable, ChoicesHoldTheLowBitsOfNeighbours) {
         {{"i", count(128)}}, {1, false});
     for (std::size_t i = 0; i < 128; ++i)
         for (std::size_t k = 0; k < 4; ++k)
-            EXPECT_EQ(r[k][i], perlin_permutation[(2 * i + (k + 1) / 2) & 255] & 15) << i << ", " << k;
+            EXPECT_EQ(r[k][i], perlin_permutation[(i + 128 * (k / 2) + k % 2) & 255] & 15) << i << ", " << k;
 }
 
 TEST(NoiseTable, GradientsAreTheDirectionsOfTheHash) {
