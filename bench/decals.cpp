@@ -11,6 +11,7 @@
 #include "io/texture_file.h"
 #include "run/pass_impl.h"
 #include "run/scatter.h"
+#include "temporary_folder.h"
 #include "tests/reference/projector.h"
 
 namespace wrinkle::bench {
@@ -184,6 +185,18 @@ Normals normals_of(Resident& resident, std::size_t pixels) {
     return got;
 }
 
+/// Seconds that a table takes to load from a file whose name ends so: the median of five, parsing and validating every
+/// row.
+double seconds_to_load(const Entrant& e, const char* ending) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / fmt::format("decals.{}", ending);
+    const auto& layer = std::get<DecalsLayer>(e.resident->scene.layers[0].bump);
+    save_decals(file, *layer.rows);
+    std::vector<Contender> loads{{ending, [&] { load_decals(file, layer.textures.size()); }}};
+    race(loads, 5);
+    return loads[0].seconds.median;
+}
+
 }  // namespace
 
 void measure_decals(const Device& device, Size size, bool quick, Run& run) {
@@ -237,6 +250,8 @@ void measure_decals(const Device& device, Size size, bool quick, Run& run) {
                 m.figures["decals a pixel"] = e.coverage.per_pixel;
                 m.figures["entries for each that touches"] = e.coverage.listed;
                 m.figures["MB of tables and lists"] = e.coverage.bytes / 1e6;
+                for (const char* ending : {"csv", "toml"})
+                    m.figures[fmt::format("s to load from .{}", ending)] = seconds_to_load(e, ending);
             }
             run.measurements.push_back(std::move(m));
         }

@@ -4,53 +4,57 @@
 
 namespace wrinkle {
 
-namespace {
-
-/// What the next stage needs of the bent surface.
-std::string emit_next_stage(const Emitter& emitter, const StageEnd& stage, Section& section) {
-    std::string text = "        {\n" + face_viewer_text(emitter) + "        }\n        n = wr_select(bent, n, flat);\n";
-    section.reads.insert("p");
-    if (!stage.wants_derivatives) return text;
-    if (stage.derivatives) section.reads.insert({"dp_dx", "dp_dy"});
-    section.writes.insert({"dp_dx", "dp_dy"});
-    section.operations += 62;
-    if (!stage.derivatives) return text;
-    return text + "        vec3 flat_dx = dp_dx, flat_dy = dp_dy;\n        {\n" + derivative_text(emitter) +
-           "        }\n"
-           "        dp_dx = wr_select(bent, dp_dx, flat_dx), dp_dy = wr_select(bent, dp_dy, flat_dy);\n";
-}
-
-}  // namespace
-
 Section emit_resolve(Emitter& emitter, const StageEnd& stage) {
     Section section;
     section.title = "resolve";
-    section.reads = {"valid", "marked", "n"};
-    section.writes = {"marked", "n", "g"};
-    section.operations = 24;
-    std::string sums;
-    if (stage.surface || stage.volume) section.reads.insert("g"), sums = "wr_nonzero(g)";
-    if (stage.volume) section.reads.insert("dh_dp"), sums += " | wr_nonzero(dh_dp)";
-    // What nothing bends stays as it is, bit by bit.
-    const bool skip = emitter.options.skip && !sums.empty() && !stage.moves;
-    std::string& text = section.body;
-    text = skip ? fmt::format("        mask bent = valid & ({});\n        if (wr_any(bent)) {{\n", sums)
-                : "        mask bent = valid;\n        {\n";
-    if (stage.volume) {
-        text += "        g = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
-        section.operations += 30;
+    section.reads = {"valid", "n"};
+    section.writes = {"n", "g"};
+    std::string derivatives, bend, sums;
+    if (stage.wants_derivatives) {
+        derivatives = "        {\n" + derivative_text(emitter) + "        }\n";
+        section.reads.insert("p");
+        section.writes.insert({"dp_dx", "dp_dy"});
+        section.operations += 62;
+        if (stage.derivatives) section.reads.insert({"dp_dx", "dp_dy"});
     }
-    text +=
-        "        vec3 flat = n, bumped = wr_resolve(n, g);\n"
-        "        mask sound = wr_sound(bumped);\n"
-        "        n = wr_select(bent & sound, bumped, n);\n"
-        "        marked += (bent & !sound & (marked < 8)) ? (real)(8) : (real)(0);\n";
-    if (stage.more) text += emit_next_stage(emitter, stage, section);
-    text += "        }\n";
-    if (!stage.more) return section;
-    if (stage.wants_derivatives && !stage.derivatives) text += "        {\n" + derivative_text(emitter) + "        }\n";
-    section.writes.insert("dh_dp");
-    text += "        g = wr_zero3();\n        dh_dp = wr_zero3();\n";
+    if (stage.surface || stage.volume) {
+        sums = "wr_nonzero(g)";
+        section.reads.insert({"marked", "g"});
+        section.writes.insert("marked");
+        section.operations += 24;
+        bend =
+            "        vec3 flat = n, bumped = wr_resolve(n, g);\n"
+            "        mask sound = wr_sound(bumped);\n"
+            "        n = wr_select(bent & sound, bumped, n);\n"
+            "        marked += (bent & !sound & (marked < 8)) ? (real)(8) : (real)(0);\n";
+    }
+    if (stage.volume) {
+        sums += " | wr_nonzero(dh_dp)";
+        section.reads.insert("dh_dp");
+        section.operations += 30;
+        bend = "        g = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n" + bend;
+    }
+    if (stage.more) {
+        section.reads.insert("p");
+        section.writes.insert("dh_dp");
+    }
+    std::string& text = section.body;
+    if (!bend.empty()) {
+        // What nothing bends stays as it is, bit by bit.
+        text = emitter.options.skip
+                   ? fmt::format("        mask bent = valid & ({});\n        if (wr_any(bent)) {{\n", sums)
+                   : "        mask bent = valid;\n        {\n";
+        text += bend;
+        if (stage.more)
+            text += "        {\n" + face_viewer_text(emitter) + "        }\n        n = wr_select(bent, n, flat);\n";
+        if (stage.derivatives && stage.wants_derivatives)
+            text += "        vec3 flat_dx = dp_dx, flat_dy = dp_dy;\n" + derivatives +
+                    "        dp_dx = wr_select(bent, dp_dx, flat_dx), dp_dy = wr_select(bent, dp_dy, flat_dy);\n";
+        text += "        }\n";
+    }
+    if (stage.turns && stage.more) text += "        {\n" + face_viewer_text(emitter) + "        }\n";
+    if (!stage.derivatives && stage.wants_derivatives) text += derivatives;
+    if (stage.more) text += "        g = wr_zero3();\n        dh_dp = wr_zero3();\n";
     return section;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "plan/section.h"
@@ -83,12 +84,15 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
 }  // namespace
 
 std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section) {
+    const auto anywhere = [](const Layer* layer) {
+        const Mask& mask = layer->mask;
+        return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
+    };
+    if (std::ranges::any_of(layers, anywhere)) return {};
     std::string text = "        mask wanted = 0;\n";
     for (const Layer* layer : layers) {
-        const Mask& mask = layer->mask;
-        if (!(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert)) return {};
-        text += "        {\n" + mask_of_planes(emitter, *layer, section) + (mask.invert ? "        m = 1 - m;\n" : "") +
-                "        wanted = wanted | (m != 0);\n        }\n";
+        text += "        {\n" + mask_of_planes(emitter, *layer, section) +
+                (layer->mask.invert ? "        m = 1 - m;\n" : "") + "        wanted = wanted | (m != 0);\n        }\n";
     }
     return text;
 }

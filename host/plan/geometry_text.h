@@ -9,7 +9,7 @@ struct GeometryText {
     std::vector<std::string> planes;
     std::string valid;     ///< mask of the planes, as text
     std::string position;  ///< sets p from pixel (x, y) and plane values z or px, py, pz
-    std::string along;     ///< how often p is the pixel's ray, from the same
+    std::string along;     ///< how often p is the pixel's ray, from p and the ray d, or better
     std::string pairs;     ///< the same as a wr_pair3; empty where there is none such
     std::string here;      ///< parameters for what `step` asks of the pixel being evaluated ...
     std::string given;     ///< ... and the arguments

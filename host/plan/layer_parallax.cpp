@@ -51,11 +51,14 @@ std::string turn(LayerText& at, bool uv) {
         "        vec3 turned = wr_parallax_normal(n, dn_dx, dn_dy, wr_scale(pixels, nearer), v);\n"
         "        n = wr_select(active, turned, n);\n"
         "        {\n" +
-        derivative_text(at.emitter) + "        }\n";
+        derivative_text(at.emitter) +
+        "        }\n"
+        "        dp_dx = wr_select(active, dp_dx, flat_dx), dp_dy = wr_select(active, dp_dy, flat_dy);\n";
     if (uv)
         text +=
             "        vec2 uv_dx = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dx);\n"
-            "        uv.dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy), uv.dx = uv_dx;\n";
+            "        vec2 uv_dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy);\n"
+            "        uv.dx = wr_select(active, uv_dx, uv.dx), uv.dy = wr_select(active, uv_dy, uv.dy);\n";
     return text;
 }
 

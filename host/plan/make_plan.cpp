@@ -36,7 +36,7 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
         stage.reads.insert(section.reads.begin(), section.reads.end());
         stage.end.surface |= section.writes.contains("g");
         stage.end.volume |= section.writes.contains("dh_dp");
-        stage.end.moves |= section.writes.contains("p");
+        stage.end.turns |= section.writes.contains("n");
         i += count;
     }
     return stages;
@@ -74,7 +74,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         stage.end.more = s + 1 < stages.size();
         if (!emitter.options.write_normal || !(bends || stage.end.more)) continue;
         stage.end.derivatives = derivatives;
-        derivatives = written || (stage.end.more && stages[s + 1].reads.contains("dp_dx"));
+        derivatives = stage.end.more && (written || stages[s + 1].reads.contains("dp_dx"));
         stage.end.wants_derivatives = derivatives;
         add(emit_resolve(emitter, stage.end), static_cast<int>(s));
         bumped |= bends;

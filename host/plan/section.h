@@ -90,8 +90,8 @@ std::string face_viewer_text(const Emitter& emitter);
 /// How a stage ends.
 struct StageEnd {
     bool surface = false, volume = false;  ///< layers add to g, to dh_dp
-    bool moves = false;                    ///< layers move points
-    bool more = false;                     ///< another stage follows
+    bool turns = false;                    ///< layers turn n themselves
+    bool more = false;                     ///< another stage follows; only then are derivatives wanted
     bool derivatives = false;              ///< dp_dx and dp_dy are those of this stage's n
     bool wants_derivatives = false;        ///< those of the bent surface are wanted
 };

@@ -180,7 +180,7 @@ std::vector<Projector> load_decal_toml(const std::filesystem::path& file, std::s
             try {
                 read_piece(alone, name, pieces[i]);
                 sound[i] = alone.finish();
-            } catch (const Error&) {
+            } catch (...) {
                 continue;  // it is read again below, to say what is wrong where: decals are counted from the first
             }
         }

@@ -47,6 +47,31 @@ TEST(Plan, OriginsRepeatAsTheirLayersDo) {
     EXPECT_EQ(plan.origins[3].period, Periods(256));
 }
 
+TEST(Plan, DerivesTextureCoordinatesWhereMasksWantThem) {
+    Layer woven = layer(normal_map(), "weave"), dirty = woven, anywhere = woven;
+    woven.mask.object = 3;
+    dirty.mask.channel = "dirt", dirty.mask.invert = true;
+    const auto wanted = [](std::vector<Layer> layers, const PlanOptions& options = {}, bool marked = false) {
+        Scene scene = scene_of(std::move(layers));
+        scene.output.marked = marked;
+        Available bare = everything();
+        std::erase_if(bare.planes, [](const std::string& name) { return name.starts_with("d"); });
+        bare.planes.insert("depth");  // no derivatives: from neighbours
+        return mentions(make_plan(scene, bare, options), "usable = uv_valid & wanted");
+    };
+    EXPECT_TRUE(wanted({woven}));
+    EXPECT_TRUE(wanted({woven, dirty, layer(NoiseLayer{})})) << "noise needs none";
+    EXPECT_FALSE(wanted({woven, anywhere}));
+    EXPECT_FALSE(wanted({woven}, {}, true)) << "where there are none is written";
+    EXPECT_FALSE(wanted({woven}, {.split = true}));
+    EXPECT_FALSE(wanted({woven}, {.skip = false}));
+    Layer painted = woven;
+    painted.mask.texture = MaskTexture{.file = "rust.png"};
+    EXPECT_TRUE(wanted({painted}));
+    painted.mask.invert = true;
+    EXPECT_FALSE(wanted({painted})) << "wherever the texture is not 1, whatever the object";
+}
+
 TEST(Plan, ListsSectionsByStage) {
     Scene scene =
         scene_of({layer(ConstantLayer{{1, 0, 0}}, "tilt"), layer(ResolveLayer{}), layer(NoiseLayer{}, "grain")});

@@ -30,7 +30,7 @@ TEST(Spared, NormalsThatNothingBendsKeepTheirBits) {
     const HostFrame frame = small_frame();
     Scene none = data_scene("constant"), some = none;
     none.layers.clear();
-    some.layers = {constant_on(1), resolve_layer(), constant_on(1), resolve_layer(), constant_on(2)};
+    some.layers = {resolve_layer(), constant_on(1), resolve_layer(), constant_on(1), resolve_layer(), constant_on(2)};
     const Pixels before = evaluate_on(frame, none), after = evaluate_on(frame, some);
     std::size_t kept = 0, bent = 0;
     for (std::size_t i = 0; i < frame.count(); ++i) {
@@ -61,8 +61,31 @@ TEST(Spared, EveryStageHasTheDerivativesOfItsOwnSurface) {
         std::string what;
         for (const Layer& layer : order) what += std::string(layer.kind()) + " ";
         for (const PassOptions& options : {PassOptions{}, PassOptions{.split = true}})
-            expect_within(what, normal_error(evaluate_on(frame, scene, options), truth), {2e-7, 2e-4, 1.5e-3}, "degrees");
+            expect_within(what, normal_error(evaluate_on(frame, scene, options), truth), {2e-7, 2e-4, 1.5e-3},
+                          "degrees");
     }
+}
+
+/// What a parallax moves and turns may share its lanes with pixels outside of its mask.
+TEST(Spared, ParallaxLeavesOthersAsTheyAre) {
+    const HostFrame frame = small_frame();
+    Scene still = data_scene("parallax");
+    std::erase_if(still.layers, [](const Layer& layer) { return layer.name != "depth of the torus"; });
+    ASSERT_EQ(still.layers.size(), 1u);
+    constexpr float torus = 3;
+    still.layers[0].mask = {};
+    still.layers[0].mask.object = torus;
+    still.layers.push_back(constant_on(1));
+    still.output.dp_dx = still.output.dp_dy = true;
+    Scene moved = still;
+    still.layers.erase(still.layers.begin());
+    const Pixels before = evaluate_on(frame, still), after = evaluate_on(frame, moved);
+    std::size_t differing = 0, turned = 0;
+    for (std::size_t i = 0; i < frame.count(); ++i)
+        for (const char* plane : {"dp_dx.x", "dp_dx.y", "dp_dx.z", "dp_dy.x", "dp_dy.y", "dp_dy.z", "normal.x"})
+            (frame.pixels.at("object")[i] == torus ? turned : differing) += before.at(plane)[i] != after.at(plane)[i];
+    EXPECT_EQ(differing, 0u);
+    EXPECT_GT(turned, 100u);
 }
 
 /// Texture coordinates are derived only where a mask lets a layer see them.

@@ -76,6 +76,14 @@ TEST_F(DecalToml, SaysWhatTypeAKeyTakes) {
     expect_key_refused("scale = 1979-05-27\n", {"a date or time"});
 }
 
+TEST_F(DecalToml, TakesNumbersOfAnySize) {
+    const auto rows = read("[[decal]]\ncenter = [1e-300, -0.0, +1_000.5]\nscale = 2.2250738585072014e-308\n");
+    EXPECT_EQ(rows.at(0).center, (Vec3{1e-300, 0, 1000.5}));
+    EXPECT_EQ(rows.at(0).scale, 2.2250738585072014e-308);
+    for (const char* number : {"1e400", "1e-400"})
+        expect_refused(before_ + "scale = " + number + "\n", {"decals.toml:6", number, "not representable"});
+}
+
 TEST_F(DecalToml, KnowsTheKeys) {
     expect_key_refused("shap = \"box\"\n", {"decals.toml:6: ", "unknown key \"shap\"; did you mean \"shape\"?"});
     expect_key_refused("half_y = 1\n", {"\"half_y\" is written half_size = [half_x, half_y, half_z]"});
@@ -113,6 +121,14 @@ TEST_F(DecalToml, CountsDecalsAndLinesOfLargeTables) {
         }
     }
     EXPECT_EQ(read(std::string(600'000, '#') + "\n" + text).size(), static_cast<std::size_t>(count));
+    std::string mistaken = text;  // in two of the pieces; each line is as long as before
+    for (const int decal : {7000, 14000}) {
+        const std::string good = "[" + std::to_string(decal) + ", 0, 0]";
+        mistaken.replace(mistaken.find(good), good.size(), "[" + std::string(good.size() - 2, '1') + "]");
+    }
+    expect_refused(mistaken, {"decals.toml:28003: [[decal]] 7001: \"center\" is 1 values in []",
+                              "decals.toml:56003: [[decal]] 14001: \"center\" is 1 values in []"});
+    expect_refused(mistaken + "[[decal]]\ncenter = [\n", {"decals.toml:8000", "not valid TOML"});
     expect_refused(text + "[[decal]]\nscale = 2\n", {"decals.toml:80002: [[decal]] 20001: needs the key \"center\""});
     expect_refused(text + "[[decal]]\ncenter = [\n", {"decals.toml:8000", "not valid TOML"});
 }
