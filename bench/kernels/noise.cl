@@ -40,6 +40,8 @@ wr_fn real wr_hashed_noise(vec3 p)
     return wr_mixed(wr_mixed(a, b, v), wr_mixed(c, d, v), w);
 }
 
+// A vector that has to be on the stack aligns it, as those of fused kernels do: else LLVM lets what registers have no
+// room for cross cache lines, by chance of the thread, and takes up to a fifth longer.
 #define WR_NOISE_KERNEL(name, octave)                                                                        \
     kernel void name(global const float *restrict in_x, global const float *restrict in_y,                   \
                      global const float *restrict in_z, global WR_SCALAR *restrict out_value,                \
@@ -48,6 +50,7 @@ wr_fn real wr_hashed_noise(vec3 p)
     {                                                                                                        \
         size_t at = get_global_id(0) * WR_LANES;                                                             \
         if (at >= pixels) return;                                                                            \
+        volatile real on_the_stack = 0;                                                                      \
         vec3 p = wr_v3(wr_load(in_x, at), wr_load(in_y, at), wr_load(in_z, at));                             \
         real value = 0;                                                                                      \
         vec3 gradient = wr_zero3();                                                                          \
