@@ -73,7 +73,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         const bool bends = stage.end.surface || stage.end.volume;
         stage.end.more = s + 1 < stages.size();
         if (!emitter.options.write_normal || !(bends || stage.end.more)) continue;
-        stage.end.derivatives = derivatives;
+        stage.end.derivatives = derivatives && !stage.end.turns;  // a turned n is yet to face the viewer
         derivatives = stage.end.more && (written || stages[s + 1].reads.contains("dp_dx"));
         stage.end.wants_derivatives = derivatives;
         add(emit_resolve(emitter, stage.end), static_cast<int>(s));
