@@ -58,7 +58,7 @@ void measure_ablation(const Device& device, const std::filesystem::path& file, S
         residents.push_back(std::make_unique<Resident>(device, std::move(pass), frame));
         contenders.push_back({way.variant, [resident = residents.back().get()] { resident->run(); }});
     }
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
     for (std::size_t k = 0; k < contenders.size(); ++k)
         run.measurements.push_back(scene_measurement("ablation", file.stem(), contenders[k].name, device.info.lanes,
                                                      contenders[k].seconds, residents[k]->pass,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "bench_kernel.h"
 #include "contests.h"
 #include "resident.h"
 
@@ -18,6 +19,15 @@ Device part_of(const Device& device, cl_uint cores) {
     return Device::adopt(context, cl::CommandQueue(context, parts.front()));
 }
 
+/// Multiply-adds without memory: what more cores can gain at most, as this machine has them now.
+std::function<void()> multiply_adds(const Device& device) {
+    constexpr std::size_t kPixels = std::size_t{1} << 20;
+    std::vector<cl::Buffer> in_and_out;
+    for (int k = 0; k < 2; ++k) in_and_out.emplace_back(device.context, CL_MEM_READ_WRITE, kPixels * sizeof(float));
+    device.queue.enqueueFillBuffer(in_and_out[0], 0.5f, 0, kPixels * sizeof(float));
+    return BenchKernels(device, "memory.cl").launcher("wr_fma_chains", in_and_out, kPixels);
+}
+
 }  // namespace
 
 void measure_cores(const Device& device, Size size, Run& run) {
@@ -34,13 +44,17 @@ void measure_cores(const Device& device, Size size, Run& run) {
             Resident on_one(one, scene, frame, {.lanes = device.info.lanes}),
                 on_two(two, scene, frame, {.lanes = device.info.lanes});
             std::vector<Contender> contenders{{"one core", [&] { on_one.run(); }},
-                                              {"two cores", [&] { on_two.run(); }}};
-            race(contenders, run.repetitions);
+                                              {"two cores", [&] { on_two.run(); }},
+                                              {"", multiply_adds(one)},
+                                              {"", multiply_adds(two)}};
+            race(contenders, run.rounds);
             for (const auto& [contender, resident] :
                  {std::pair{&contenders[0], &on_one}, std::pair{&contenders[1], &on_two}})
                 run.measurements.push_back(scene_measurement("cores", name, contender->name, device.info.lanes,
                                                              contender->seconds, resident->pass,
                                                              resident->normals(frame.pixels()), reference));
+            run.measurements.back().figures["times as many multiply-adds on two, in the same race"] =
+                ratio(contenders[2].seconds, contenders[3].seconds).value;
         }
     } catch (const cl::Error&) { fmt::print("one core and two: this device cannot be divided\n"); }
 }

@@ -193,7 +193,7 @@ double seconds_to_load(const Entrant& e, const char* ending) {
     const auto& layer = std::get<DecalsLayer>(e.resident->scene.layers[0].bump);
     save_decals(file, *layer.rows);
     std::vector<Contender> loads{{ending, [&] { load_decals(file, layer.textures.size()); }}};
-    race(loads, 5);
+    race(loads, {5});
     return loads[0].seconds.median;
 }
 
@@ -221,7 +221,7 @@ void measure_decals(const Device& device, Size size, bool quick, Run& run) {
                                       e.plain->run(e.resident->scene, spans, e.lists, {plain.x, plain.y, plain.z});
                                   }});
     }
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
 
     for (Entrant& e : entrants) {
         const ReferenceSample reference(e.resident->scene, frame, kErrorSamples, 7);

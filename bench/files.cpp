@@ -92,7 +92,7 @@ void measure_files(Size size, Run& run) {
         fmt::format("oiiotool -i:ch=N.X,N.Y,N.Z,UV.U,UV.V,Z '{}' --ch N.X,N.Y,N.Z --compression zip -o '{}'",
                     exr.string(), (folder.path() / "copied.exr").string());
     std::vector<Contender> contenders{{"wrinkle run", [&] { call(wrinkle_run); }}, {"oiiotool", [&] { call(copy); }}};
-    race(contenders, std::max(3, run.repetitions / 3));
+    race(contenders, few(run.rounds));
 
     const Scene scene = load_scene(scene_file);
     const ReferenceSample reference(scene, frame, kErrorSamples, kSeed);

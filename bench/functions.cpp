@@ -161,7 +161,7 @@ std::vector<Measurement> measure_functions(const Device& device, const FunctionB
         std::vector<Contender> contenders;
         for (const Entry& entry : entries)
             if (entry.work) contenders.push_back({entry.measurement.variant, entry.work});
-        race(contenders, options.repetitions);
+        race(contenders, {options.repetitions});
         for (std::size_t i = 0; i < entries.size(); ++i) {
             if (i < contenders.size()) entries[i].measurement.seconds = contenders[i].seconds;
             out.push_back(entries[i].measurement);

@@ -41,14 +41,16 @@ std::string row(const Run& run, const Measurement& m) {
 std::string bars_table(const Run& run) {
     if (run.bars.empty()) return {};
     std::string text =
-        "<h2>bars</h2>\n<table><tr><th>bar<th>verdict<th>measured<th>spread<th>limit<th>p99 error of<th>p99 error to"
+        "<h2>bars</h2>\n<table><tr><th>bar<th>verdict<th>measured<th>between<th>spread<th>limit<th>p99 error of<th>p99 "
+        "error to"
         "<th>unit</tr>\n";
     for (const Bar& b : run.bars)
         text += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}%</td><td>{} {:.2f}</td><td>{:.1e}</td><td>{:.1e}</td>"
+            "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f} - {:.2f}</td><td>{:.1f}%</td><td>{} "
+            "{:.2f}</td><td>{:.1e}</td><td>{:.1e}</td>"
             "<td>{}</td></tr>\n",
-            escaped(b.name), b.verdict, b.ratio, 100 * b.spread, b.at_most ? "at most" : "at least", b.limit, b.of_p99,
-            b.to_p99, b.unit);
+            escaped(b.name), b.verdict, b.ratio, b.low, b.high, 100 * b.spread, b.at_most ? "at most" : "at least",
+            b.limit, b.of_p99, b.to_p99, b.unit);
     return text + "</table>\n";
 }
 
@@ -62,9 +64,10 @@ std::string html(const Run& run, const std::map<std::string, std::string>& chart
         "td, th {{ padding: 2px 8px; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top }}\n"
         "td:first-child, td:nth-child(2), td.hard {{ text-align: left }}\n.charts svg {{ margin: 4px }}\n"
         "</style>\n<h1>wrinkle: speed beside error</h1>\n"
-        "<p>{}; {}.<br>wrinkle bench {}<br>{} repetitions, medians; spread is between the quartiles. Ceilings of this "
+        "<p>{}; {}.<br>wrinkle bench {}<br>{}; spread is between the quartiles; a bar's ratio lies between its bounds "
+        "with 95% confidence. Ceilings of this "
         "run: copy {:.1f} GB/s, triad {:.1f} GB/s, fma {:.0f} Gflop/s.</p>\n<div class=charts>\n",
-        escaped(run.processor), escaped(run.device), escaped(run.command), run.repetitions, run.ceilings.copy_gb_s,
+        escaped(run.processor), escaped(run.device), escaped(run.command), text_of(run.rounds), run.ceilings.copy_gb_s,
         run.ceilings.triad_gb_s, run.ceilings.fma_gflop_s);
     for (const auto& [name, svg] : charts) text += inner_svg(svg);
     text += "</div>\n";

@@ -18,6 +18,7 @@
 #include "report.h"
 #include "run/render.h"
 #include "scenes.h"
+#include "sizes.h"
 #include "volume.h"
 #include "wrinkle/error.h"
 
@@ -36,6 +37,7 @@ struct Arguments {
     fs::path scene, json, report, compare;
     Size size{3840, 2160};
     int repetitions = 9;
+    double seconds = 10;
     bool quick = false;
 };
 
@@ -49,11 +51,16 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
         ->capture_default_str()
         ->check(CLI::Range(16, 65536));
     app.add_option("--height", a.size.height, "pixels")->capture_default_str()->check(CLI::Range(16, 65536));
-    app.add_option("--repetitions", a.repetitions, "times that each contender runs; medians are reported")
+    app.add_option("--repetitions", a.repetitions, "times that each contender runs at least; medians are reported")
         ->capture_default_str()
         ->check(CLI::Range(3, 1000));
+    app.add_option("--seconds", a.seconds,
+                   "seconds that a race of contenders goes on at least, since what disturbs it lasts for some")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 3600.0));
     app.add_flag("--quick", a.quick,
-                 "small frames, errors of functions without their speeds, no contests: for accuracy, not for speed");
+                 "small frames, errors of functions without their speeds, no contests, no more rounds than "
+                 "--repetitions: for accuracy, not for speed");
     app.add_option("--device", a.device, "OpenCL device; see \"wrinkle devices\"");
     app.add_option("--json", a.json, "also write the run as JSON");
     app.add_option("--report", a.report, "also write run.json, run.csv, charts and index.html to this folder");
@@ -71,7 +78,7 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
     const Size size = a.quick ? Size{960, 540} : a.size;
     bench::measure_memory(device, size, run);  // always: the ceilings that shares are of
     if (wanted("functions")) {
-        bench::FunctionBench options{.only = a.function, .repetitions = run.repetitions, .speed = !a.quick};
+        bench::FunctionBench options{.only = a.function, .repetitions = run.rounds.least, .speed = !a.quick};
         if (!a.function.empty()) options.lanes = {1, 4, 8, 16};
         std::ranges::move(bench::measure_functions(device, options), std::back_inserter(run.measurements));
     }
@@ -130,7 +137,7 @@ int main(int argc, char** argv) {
             fmt::format("{}, {} compute units, {}", device.info.name, device.info.compute_units, device.info.driver);
         run.processor = bench::processor_name();
         for (int i = 1; i < argc; ++i) run.command += (i > 1 ? " " : "") + std::string(argv[i]);
-        run.repetitions = arguments.repetitions;
+        run.rounds = {arguments.repetitions, arguments.quick ? 0 : arguments.seconds};
         measure(device, arguments, run);
         run.bars = bench::bars_of(run);
         bench::print(run);

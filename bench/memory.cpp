@@ -81,7 +81,7 @@ void measure_memory(const Device& device, Size size, Run& run) {
         {"resolve, plain C++", [&] { baseline::resolve(n, g, out_planes); }},
         {"resolve, C++ past the cache", [&] { baseline::resolve_streaming(n, g, out_planes); }},
         {"triad, C++ past the cache", [&] { baseline::triad_streaming(host[0], host[3], host[6]); }}};
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
     const Timing cpp_triad = contenders.back().seconds;
     std::vector<float> triad_result(host[6].begin(), host[6].end());
 

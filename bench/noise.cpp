@@ -108,7 +108,7 @@ void measure_noise(const Device& device, Run& run) {
             widths.push_back(lanes), of.push_back(way);
         }
     }
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
     for (std::size_t k = 0; k < contenders.size(); ++k) {
         contenders[k].work();
         Measurement m = measured("noise", "perlin_noise", contenders[k], widths[k], kPixels * kOctaves);

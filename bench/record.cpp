@@ -30,6 +30,7 @@ json measurement_json(const Measurement& m) {
             {"pixels", m.pixels},
             {"seconds", m.seconds.median},
             {"spread", m.seconds.spread},
+            {"rounds", m.seconds.runs.size()},
             {"ns_per_pixel", m.ns_per_pixel()},
             {"bytes_per_pixel", m.bytes},
             {"operations_per_pixel", m.operations},
@@ -60,6 +61,7 @@ json bar_json(const Bar& b) {
     return {{"name", b.name},
             {"ratio", b.ratio},
             {"spread", b.spread},
+            {"bounds", {b.low, b.high}},
             {b.at_most ? "at_most" : "at_least", b.limit},
             {"verdict", b.verdict},
             {"of", b.of},
@@ -72,6 +74,7 @@ json bar_json(const Bar& b) {
 Bar bar_of(const json& j) {
     Bar b{j.at("name"), j.at("verdict"), j.at("ratio"), j.at("spread")};
     b.at_most = j.contains("at_most");
+    if (j.contains("bounds")) b.low = j.at("bounds").at(0), b.high = j.at("bounds").at(1);
     b.limit = j.at(b.at_most ? "at_most" : "at_least");
     b.of = j.at("of"), b.to = j.at("to");
     b.of_p99 = j.at("error_p99_of"), b.to_p99 = j.at("error_p99_to"), b.unit = j.at("error_unit");
@@ -101,7 +104,8 @@ json to_json(const Run& run) {
             {"processor", run.processor},
             {"device", run.device},
             {"command", run.command},
-            {"repetitions", run.repetitions},
+            {"repetitions", run.rounds.least},
+            {"seconds_a_race", run.rounds.seconds},
             {"ceilings",
              {{"copy_gb_per_s", run.ceilings.copy_gb_s},
               {"triad_gb_per_s", run.ceilings.triad_gb_s},
@@ -118,7 +122,9 @@ Run read_run(const std::string& file) {
         const json j = json::parse(in);
         if (const int version = j.at("wrinkle_bench"); version != 1 && version != 2)
             throw Error(fmt::format("{}: written by another version of wrinkle bench", file));
-        Run run{j.at("processor"), j.at("device"), j.at("command"), j.at("repetitions"), {}, {}, {}};
+        Run run;
+        run.processor = j.at("processor"), run.device = j.at("device"), run.command = j.at("command");
+        run.rounds = {j.at("repetitions"), j.value("seconds_a_race", 0.0)};
         const json& c = j.at("ceilings");
         run.ceilings = {c.at("copy_gb_per_s"), c.at("triad_gb_per_s"), c.at("fma_gflop_per_s"),
                         c.value("streamed_triad_gb_per_s", 0.0)};

@@ -39,8 +39,9 @@ struct Measurement {
 
 /// A promise about one run: a ratio of what two measurements cost a pixel, and its limit.
 struct Bar {
-    std::string name{}, verdict{};  ///< "met", "missed", "not told apart": the limit lies within the spread
+    std::string name{}, verdict{};  ///< "met", "missed", "not told apart": the limit lies within the bounds
     double ratio = 0, spread = 0, limit = 0;
+    double low = 0, high = 0;       ///< bounds of the ratio, see Ratio
     bool at_most = true;            ///< else at least
     std::string of{}, to{};         ///< the two, as keys of measurements
     double of_p99 = 0, to_p99 = 0;  ///< errors of the two
@@ -55,7 +56,7 @@ struct Ceilings {
 
 struct Run {
     std::string processor, device, command;
-    int repetitions = 0;
+    Rounds rounds;
     Ceilings ceilings;
     std::vector<Measurement> measurements;
     std::vector<Bar> bars{};

@@ -81,11 +81,12 @@ void print_ratios(const Run& run) {
 
 void print_bars(const Run& run) {
     if (run.bars.empty()) return;
-    fmt::print("\n{:<38}{:>9}{:>8}{:>11}  {:<16}{:>9}{:>9}  {}\n", "bars", "measured", "spread", "limit", "", "p99 of",
-               "p99 to", "error in");
+    fmt::print("\n{:<38}{:>9}{:>16}{:>8}{:>11}  {:<16}{:>9}{:>9}  {}\n", "bars", "measured", "between", "spread",
+               "limit", "", "p99 of", "p99 to", "error in");
     for (const Bar& b : run.bars)
-        fmt::print("  {:<36}{:>8.2f}x{:>7.1f}%{:>4}{:>6.2f}x  {:<16}{:>9.1e}{:>9.1e}  {}\n", b.name, b.ratio,
-                   100 * b.spread, b.at_most ? "<=" : ">=", b.limit, b.verdict, b.of_p99, b.to_p99, b.unit);
+        fmt::print("  {:<36}{:>8.2f}x{:>8.2f} - {:<5.2f}{:>7.1f}%{:>4}{:>6.2f}x  {:<16}{:>9.1e}{:>9.1e}  {}\n", b.name,
+                   b.ratio, b.low, b.high, 100 * b.spread, b.at_most ? "<=" : ">=", b.limit, b.verdict, b.of_p99,
+                   b.to_p99, b.unit);
 }
 
 /// "41%" of the ceiling of multiply-adds, where operations are counted.
@@ -96,7 +97,7 @@ std::string fma_share(const Run& run, const Measurement& m) {
 }  // namespace
 
 void print(const Run& run) {
-    fmt::print("{}; {}; {} repetitions, medians\n", run.processor, run.device, run.repetitions);
+    fmt::print("{}; {}; {}\n", run.processor, run.device, text_of(run.rounds));
     fmt::print("ceilings: copy {:.1f} GB/s, triad {:.1f} GB/s ({:.1f} in C++), fma {:.0f} Gflop/s\n",
                run.ceilings.copy_gb_s, run.ceilings.triad_gb_s, run.ceilings.streamed_triad_gb_s,
                run.ceilings.fma_gflop_s);

@@ -12,7 +12,4 @@ namespace wrinkle::bench {
 /// each layer alone above the empty scene. With seconds to build the kernels, and to take them from the cache.
 void measure_scene(const Device& device, const std::filesystem::path& file, Size size, bool layers, Run& run);
 
-/// The fused scene at each size, in bands, so that memory does not grow with the frame.
-void measure_sizes(const Device& device, const std::filesystem::path& file, const std::vector<Size>& sizes, Run& run);
-
 }  // namespace wrinkle::bench

@@ -62,7 +62,7 @@ void measure_screen(const Device& device, Size size, Run& run) {
     const auto copy = kernels.launcher("wr_copy_four_to_six", arguments, frame.pixels());
     std::vector<Contender> contenders{{"standard", [&] { pass.enqueue(in.planes(), out.planes()).wait(); }},
                                       {"same bytes", copy}};
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
     Measurement m{.group = "screen",
                   .name = "screen_derivatives",
                   .variant = "standard",

@@ -22,7 +22,7 @@ void measure_stack(const Device& device, Size size, Run& run) {
     std::vector<Contender> contenders{{"standard", [&] { resident.run(); }}};
     for (const auto& [name, rows] : forms)
         contenders.push_back({name, [&, form = rows] { stack.run(form, planes, out); }});
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
     const auto add = [&](const Contender& contender, int lanes, const Normals& got) {
         run.measurements.push_back(scene_measurement("stack", "decal_stack", contender.name, lanes, contender.seconds,
                                                      resident.pass, got, reference));

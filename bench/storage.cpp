@@ -91,7 +91,7 @@ void measure_storage(const Device& device, Size size, Run& run) {
         {"octahedral normals",
          kernels.launcher("wr_from_octahedral", with_out({shorts[0], shorts[1], floats[3], floats[4], floats[5]}),
                           pixels)}};
-    race(contenders, run.repetitions);
+    race(contenders, run.rounds);
     constexpr double kBytes[] = {36, 24, 28};
     for (std::size_t c = 0; c < contenders.size(); ++c) {
         contenders[c].work();

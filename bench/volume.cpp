@@ -154,7 +154,7 @@ void measure_volumes(const Device& device, int size, Run& run) {
             {"NanoVDB C++, gradient", [&] { nano.gradients(points, gradients); }},
             {"NanoVDB C++, both", [&] { nano.values_and_gradients(points, host[0], gradients); }}};
         for (Sampler& sampler : samplers) contenders.push_back({sampler.name, [&] { launch(sampler); }});
-        race(contenders, run.repetitions);
+        race(contenders, run.rounds);
         for (std::size_t i = 0; i < contenders.size(); ++i) {
             const bool kernel = i >= 2;
             Measurement m = measured("volume", walk.name, contenders[i], kernel ? device.info.lanes : 0, kPixels);

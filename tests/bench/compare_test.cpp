@@ -18,7 +18,7 @@ Measurement measurement(const char* name, double seconds, double p99) {
 }
 
 Run run_of(std::vector<Measurement> measurements, double copy = 30) {
-    Run run{"processor", "device", "bench", 9, {copy, copy, 200, copy}, std::move(measurements), {}};
+    Run run{"processor", "device", "bench", {9}, {copy, copy, 200, copy}, std::move(measurements), {}};
     return run;
 }
 
@@ -66,7 +66,7 @@ TEST(Record, ReadsBackWhatItWrote) {
     bench::Run run = run_of({measurement("a", 1, 1e-5)});
     run.measurements[0].hard["grazing"] = {1, 2, 3, 4, 5};
     run.measurements[0].memory = 1e6;
-    run.bars = {{"a / b", "met", 0.5, 0.01, 0.85, true, "x", "y", 1e-5, 2e-5, "degrees"}};
+    run.bars = {{"a / b", "met", 0.5, 0.01, 0.85, 0.49, 0.52, true, "x", "y", 1e-5, 2e-5, "degrees"}};
     const test::TempFolder folder;
     const auto file = folder / "run.json";
     std::ofstream(file) << to_json(run).dump();
