@@ -129,7 +129,8 @@ std::map<std::string, std::string> charts(const Run& run) {
         if (m.group == "size") by_size.push_back(&m);
         if (m.group == "function" || m.group == "scene" || m.group == "memory")
             variants[m.name].push_back(&m);
-        else if (m.group == "stack" || m.group == "noise" || m.group == "storage" || m.group == "ablation")
+        else if (m.group == "stack" || m.group == "noise" || m.group == "storage" || m.group == "variant" ||
+                 m.group == "ablation")
             variants[m.group + "-" + m.name].push_back(&m);
     }
     std::map<std::string, std::string> scripts{{"roofline", roofline(run)}};

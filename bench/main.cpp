@@ -27,13 +27,14 @@ namespace {
 using namespace wrinkle;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> all_parts{"memory", "functions", "demo",     "scenes", "decals",
-                                         "volume", "storage",   "ablation", "bars",   "sizes"};
+const std::vector<std::string> all_parts{"memory",   "functions", "demo",     "scenes", "decals", "volume",
+                                         "variants", "storage",   "ablation", "bars",   "sizes"};
 const std::vector<std::string> quick_parts{"memory", "functions", "demo", "scenes", "storage"};
 
 struct Arguments {
     std::vector<std::string> only;
     std::string function, device;
+    std::vector<int> lanes;
     fs::path scene, json, report, compare;
     Size size{3840, 2160};
     int repetitions = 9;
@@ -45,7 +46,11 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
     app.add_option("--only", a.only, fmt::format("parts to measure, of {}", fmt::join(all_parts, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(all_parts));
-    app.add_option("--function", a.function, "of the functions, only this one; on 1, 4, 8 and 16 lanes");
+    app.add_option("--function", a.function,
+                   "of the functions, only this one; on 1, 4, 8 and 16 lanes, unless --lanes says otherwise");
+    app.add_option("--lanes", a.lanes, "of the functions, on so many lanes: 1, 4, 8, 16, or several; else the device's")
+        ->delimiter(',')
+        ->check(CLI::IsMember({1, 4, 8, 16}));
     app.add_option("--scene", a.scene, "scene of the part demo; else data/scenes/courtyard.toml");
     app.add_option("--width", a.size.width, "pixels of the parts demo and scenes")
         ->capture_default_str()
@@ -78,8 +83,9 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
     const Size size = a.quick ? Size{960, 540} : a.size;
     bench::measure_memory(device, size, run);  // always: the ceilings that shares are of
     if (wanted("functions")) {
-        bench::FunctionBench options{.only = a.function, .repetitions = run.rounds.least, .speed = !a.quick};
-        if (!a.function.empty()) options.lanes = {1, 4, 8, 16};
+        bench::FunctionBench options{
+            .only = a.function, .lanes = a.lanes, .repetitions = run.rounds.least, .speed = !a.quick};
+        if (!a.function.empty() && a.lanes.empty()) options.lanes = {1, 4, 8, 16};
         std::ranges::move(bench::measure_functions(device, options), std::back_inserter(run.measurements));
     }
     const fs::path demo = a.scene.empty() ? WRINKLE_SOURCE_DIR "/data/scenes/courtyard.toml" : a.scene;
@@ -89,6 +95,7 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         for (const auto& entry : fs::directory_iterator(WRINKLE_SOURCE_DIR "/bench/scenes")) files.insert(entry.path());
         for (const fs::path& file : files) bench::measure_scene(device, file, size, false, run);
     }
+    if (wanted("variants")) bench::measure_variants(device, size, run);
     if (wanted("storage")) bench::measure_storage(device, size, run);
     if (wanted("ablation")) bench::measure_ablation(device, demo, size, run);
     if (wanted("bars")) {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,14 +58,19 @@ inline double seconds_of(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Times all contenders turn by turn, so that a noisy neighbour disturbs all alike; each warms up once.
+/// Times all contenders turn by turn, so that a noisy neighbour disturbs all alike, every round in an order of its own,
+/// so that none profits or suffers by what runs before it; each warms up once.
 inline void race(std::vector<Contender>& contenders, const Rounds& rounds) {
     for (const Contender& contender : contenders) contender.work();
     std::vector<std::vector<double>> times(contenders.size());
+    std::vector<std::size_t> order(contenders.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::mt19937 draw(1);
     double taken = 0;
-    for (int r = 0; r < rounds.least || taken < rounds.seconds; ++r)
-        for (std::size_t i = 0; i < contenders.size(); ++i)
-            taken += times[i].emplace_back(seconds_of(contenders[i].work));
+    for (int r = 0; r < rounds.least || taken < rounds.seconds; ++r) {
+        std::ranges::shuffle(order, draw);
+        for (const std::size_t i : order) taken += times[i].emplace_back(seconds_of(contenders[i].work));
+    }
     for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].seconds = timing(std::move(times[i]));
 }
 
