@@ -1,5 +1,7 @@
 #include "bars.h"
 
+#include "ratio.h"
+
 #include <fmt/format.h>
 
 namespace wrinkle::bench {
@@ -58,15 +60,15 @@ constexpr Promise kPromises[] = {
      false},
     {"a pixel of 1 / of 8 Mpixel",
      {"size", "courtyard", "1 Mpixel"},
-     {"size, in turns", "courtyard", "8 Mpixel, with 1 Mpixel"},
+     {"turns", "courtyard", "8 Mpixel, with 1 Mpixel"},
      1.1},
     {"a pixel of 33 / of 8 Mpixel",
      {"size", "courtyard", "33 Mpixel"},
-     {"size, in turns", "courtyard", "8 Mpixel, with 33 Mpixel"},
+     {"turns", "courtyard", "8 Mpixel, with 33 Mpixel"},
      1.1},
     {"a pixel of 133 / of 8 Mpixel",
      {"size", "courtyard", "133 Mpixel"},
-     {"size, in turns", "courtyard", "8 Mpixel, with 133 Mpixel"},
+     {"turns", "courtyard", "8 Mpixel, with 133 Mpixel"},
      1.1},
     {"100,000 decals / 1,000", {"decals", "100000 decals", "standard"}, {"decals", "1000 decals", "standard"}, 1.3},
     {"binning / pass, 100,000 decals",

@@ -33,8 +33,9 @@ void measure_storage(const Device& device, Size size, Run& run);
 /// time, without skipping, without footprints, without fusing. Group "ablation".
 void measure_ablation(const Device& device, const std::filesystem::path& file, Size size, Run& run);
 
-/// One layer over every pixel: noise of 2, 4 and 8 octaves, by gradients and by differences; a height map bilinear,
-/// smooth and by three taps, with mips and without; on 1, 4, 8 and 16 lanes. Group "variant".
+/// One layer over all of a frame of half the width and height: noise of 2, 4 and 8 octaves, by gradients and by
+/// differences; a height map bilinear, smooth and by three taps, with mips and without; one of each on 1, 4, 8 and 16
+/// lanes. Group "variant".
 void measure_variants(const Device& device, Size size, Run& run);
 
 /// The scene of the stack of decals.

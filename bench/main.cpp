@@ -48,19 +48,23 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
         ->check(CLI::IsMember(all_parts));
     app.add_option("--function", a.function,
                    "of the functions, only this one; on 1, 4, 8 and 16 lanes, unless --lanes says otherwise");
-    app.add_option("--lanes", a.lanes, "of the functions, on so many lanes: 1, 4, 8, 16, or several; else the device's")
+    app.add_option("--lanes", a.lanes,
+                   "of the functions in float, on so many lanes: 1, 4, 8, 16, or several; else the device's")
         ->delimiter(',')
         ->check(CLI::IsMember({1, 4, 8, 16}));
     app.add_option("--scene", a.scene, "scene of the part demo; else data/scenes/courtyard.toml");
-    app.add_option("--width", a.size.width, "pixels of the parts demo and scenes")
+    app.add_option("--width", a.size.width, "pixels of frames; sizes have their own")
         ->capture_default_str()
         ->check(CLI::Range(16, 65536));
     app.add_option("--height", a.size.height, "pixels")->capture_default_str()->check(CLI::Range(16, 65536));
-    app.add_option("--repetitions", a.repetitions, "times that each contender runs at least; medians are reported")
+    app.add_option("--repetitions", a.repetitions,
+                   "times that each contender runs at least, or 6 where runs take seconds; medians are reported")
         ->capture_default_str()
         ->check(CLI::Range(3, 1000));
-    app.add_option("--seconds", a.seconds,
-                   "seconds that a race of contenders goes on at least, since what disturbs it lasts for some")
+    app.add_option(
+           "--seconds", a.seconds,
+           "seconds that a race of contenders goes on at least, since what disturbs it lasts for some; functions "
+           "and layers make do with the repetitions")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 3600.0));
     app.add_flag("--quick", a.quick,

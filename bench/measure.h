@@ -9,7 +9,6 @@
 #include <numeric>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wrinkle::bench {
@@ -49,8 +48,8 @@ inline std::string text_of(const Rounds& rounds) {
                        rounds.seconds > 0 ? fmt::format(", races of {:g} s or longer", rounds.seconds) : "");
 }
 
-/// A third of the rounds, for work that takes seconds.
-inline Rounds few(const Rounds& rounds) { return {std::max(3, rounds.least / 3), rounds.seconds}; }
+/// Fewer, for work that takes seconds; enough that the outermost hold the median with 97%.
+inline Rounds few(const Rounds& rounds) { return {std::min(6, rounds.least), rounds.seconds}; }
 
 inline double seconds_of(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -58,9 +57,10 @@ inline double seconds_of(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Times all contenders turn by turn, so that a noisy neighbour disturbs all alike, every round in an order of its own,
-/// so that none profits or suffers by what runs before it; each warms up once.
+/// Times all contenders turn by turn, so that a noisy neighbour disturbs all alike, in a random order and back, so that
+/// none profits or suffers by what runs before it; each warms up once.
 inline void race(std::vector<Contender>& contenders, const Rounds& rounds) {
+    if (contenders.empty()) return;
     for (const Contender& contender : contenders) contender.work();
     std::vector<std::vector<double>> times(contenders.size());
     std::vector<std::size_t> order(contenders.size());
@@ -68,46 +68,13 @@ inline void race(std::vector<Contender>& contenders, const Rounds& rounds) {
     std::mt19937 draw(1);
     double taken = 0;
     for (int r = 0; r < rounds.least || taken < rounds.seconds; ++r) {
-        std::ranges::shuffle(order, draw);
+        if (r % 2 == 0)
+            std::ranges::shuffle(order, draw);
+        else
+            std::ranges::reverse(order);
         for (const std::size_t i : order) taken += times[i].emplace_back(seconds_of(contenders[i].work));
     }
     for (std::size_t i = 0; i < contenders.size(); ++i) contenders[i].seconds = timing(std::move(times[i]));
 }
-
-/// "3.42x", or what keeps it from being said: the spread is larger than the effect.
-struct Ratio {
-    double value = 0, spread = 0;
-    double low = 0, high = 0;  ///< the value is known to lie within
-    bool meaningful = false;
-};
-
-/// Between which of their values the median of such runs lies, with 95% confidence, whatever their distribution: ranks
-/// 0.98 sqrt(n) from the middle (W. Conover, Practical Nonparametric Statistics, 3.2); of eleven or fewer, the
-/// outermost.
-inline std::pair<double, double> median_bounds(std::vector<double> runs) {
-    std::ranges::sort(runs);
-    const auto n = static_cast<double>(runs.size());
-    const auto below = static_cast<std::size_t>(std::max(std::floor((n - 1.96 * std::sqrt(n)) / 2) - 1, 0.0));
-    return {runs[below], runs[runs.size() - 1 - below]};
-}
-
-/// slow / fast. Of one race: the median of the ratios of its rounds, since what disturbs a round disturbs both; else
-/// the ratio of the medians.
-inline Ratio ratio(const Timing& slow, const Timing& fast) {
-    Ratio r{slow.median / fast.median, std::hypot(slow.spread, fast.spread)};
-    r.low = r.value * (1 - r.spread / 2), r.high = r.value * (1 + r.spread / 2);
-    if (slow.runs.size() == fast.runs.size() && !slow.runs.empty()) {
-        std::vector<double> rounds;
-        for (std::size_t i = 0; i < slow.runs.size(); ++i) rounds.push_back(slow.runs[i] / fast.runs[i]);
-        const auto [low, high] = median_bounds(rounds);
-        const Timing t = timing(std::move(rounds));
-        r = {t.median, t.spread, low, high};
-    }
-    r.meaningful = std::abs(r.value - 1) > r.spread * r.value;
-    return r;
-}
-
-/// What may be said of a ratio.
-inline std::string text_of(const Ratio& r) { return r.meaningful ? fmt::format("{:.2f}x", r.value) : "not told apart"; }
 
 }  // namespace wrinkle::bench

@@ -12,7 +12,7 @@ namespace wrinkle::bench {
 
 /// One thing measured: how fast, how wrong. A speed is never recorded without its error.
 struct Measurement {
-    std::string group;    ///< "function", "scene", "layer", "memory", "volume", "decals"
+    std::string group;    ///< the part of the bench: "function", "scene", "layer"
     std::string name;     ///< "tangent_frame"
     std::string variant;  ///< "standard", "fused", "plain C++"
     int lanes = 0;        ///< pixels a work-item; 0: not a kernel
@@ -41,7 +41,7 @@ struct Measurement {
 struct Bar {
     std::string name{}, verdict{};  ///< "met", "missed", "not told apart": the limit lies within the bounds
     double ratio = 0, spread = 0, limit = 0;
-    double low = 0, high = 0;       ///< bounds of the ratio, see Ratio
+    double low = 0, high = 0;       ///< bounds of the ratio's median
     bool at_most = true;            ///< else at least
     std::string of{}, to{};         ///< the two, as keys of measurements
     double of_p99 = 0, to_p99 = 0;  ///< errors of the two

@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include "ratio.h"
+
 #include <fmt/format.h>
 
 #include <fstream>

@@ -7,7 +7,6 @@
 #include "baseline/baseline.h"
 #include "error.h"
 #include "resident.h"
-#include "run/pass_impl.h"
 #include "shell.h"
 #include "temporary_folder.h"
 #include "wrinkle/error.h"
@@ -39,11 +38,10 @@ void measure_layers(const Device& device, const Scene& scene, const BenchFrame& 
         const Scene alone = only(scene, layer);
         Resident one(device, alone, frame);
         std::vector<Contender> pair{{layer.name, [&] { one.run(); }}, {"", [&] { empty.run(); }}};
-        race(pair, {few(run.rounds).least});
-        Timing above = pair[0].seconds;
-        above.spread *= above.median / std::max(above.median - pair[1].seconds.median, 1e-9);
-        above.median -= pair[1].seconds.median;
-        above.runs.clear();
+        race(pair, {run.rounds.least});
+        std::vector<double> more = pair[0].seconds.runs;
+        for (std::size_t round = 0; round < more.size(); ++round) more[round] -= pair[1].seconds.runs[round];
+        const Timing above = timing(std::move(more));
         const ReferenceSample reference(alone, frame, kErrorSamples, kSeed);
         run.measurements.push_back(scene_measurement("layer", layer.name, "above the empty scene", device.info.lanes,
                                                      above, one.pass, one.normals(frame.pixels()), reference));

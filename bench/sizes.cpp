@@ -89,31 +89,44 @@ struct Turns {
     double held = 0;
 };
 
-/// Frame and the one beside it band by band in turns: through the larger of the two once, as often through the smaller
-/// as that takes; every round sums up its own turns.
-Turns take_turns(Bands& frame, Bands& beside, const std::vector<PlaneBuffers>& beside_in, double held_before,
-                 const Rounds& rounds) {
-    const std::uint32_t times = std::max(beside.count() / frame.count(), 1u), steps = times * frame.count();
-    std::vector<double> seconds, beside_seconds;
+/// The frame that others take turns with, all of its bands on the device.
+struct Beside {
+    Bands bands;
+    std::vector<PlaneBuffers> in{};
+    double seconds_a_band = 0;  ///< about
+
+    explicit Beside(Bands given) : bands(std::move(given)) {
+        for (std::uint32_t band = 0; band < bands.count(); ++band) in.push_back(bands.load(band));
+        for (std::uint32_t band = 0; band < bands.count(); ++band) run(band);  // builds, and touches its memory
+        for (std::uint32_t band = 0; band < bands.count(); ++band)
+            seconds_a_band += seconds_of([&] { run(band); }) / bands.count();
+    }
+    void run(std::uint32_t band) { bands.run(band, in[band]); }
+};
+
+/// Frame and the one beside it band by band in turns: through the frame once, or often enough to go through the one
+/// beside it; every round sums up its own turns.
+Turns take_turns(Bands& frame, Beside& beside, double held_before, const Rounds& rounds) {
+    const std::uint32_t times = std::max(beside.bands.count() / frame.count(), 1u), steps = times * frame.count();
+    const double once = 2 * steps * beside.seconds_a_band;
+    const auto count = static_cast<std::size_t>(std::max<double>(rounds.least, std::ceil(rounds.seconds / once)));
+    std::vector<double> seconds(count), beside_seconds(count);
     double held = 0;
+    std::size_t beside_pixels = 0;
     for (std::uint32_t step = 0; step < steps; ++step) {
-        const std::uint32_t band = step / times, beside_band = step % beside.count();
+        const std::uint32_t band = step / times, beside_band = step % beside.bands.count();
         const PlaneBuffers in = frame.load(band);
         std::vector<Contender> pair{{"frame", [&] { frame.run(band, in); }},
-                                    {"beside", [&] { beside.run(beside_band, beside_in[beside_band]); }}};
-        if (step == 0) {
-            race(pair, {1});
-            const double once = steps * (pair[0].seconds.median + pair[1].seconds.median);
-            seconds.resize(static_cast<std::size_t>(std::max<double>(rounds.least, std::ceil(rounds.seconds / once))));
-            beside_seconds.resize(seconds.size());
-        }
-        race(pair, {static_cast<int>(seconds.size())});
+                                    {"beside", [&] { beside.run(beside_band); }}};
+        race(pair, {static_cast<int>(count)});
         held = std::max(held, resident_bytes() - held_before);
-        for (std::size_t round = 0; round < seconds.size(); ++round) {
+        beside_pixels += std::size_t{beside.bands.rows(beside_band).count} * kBeside.width;
+        for (std::size_t round = 0; round < count; ++round) {
             seconds[round] += pair[0].seconds.runs[round] / times;
-            beside_seconds[round] += pair[1].seconds.runs[round] * beside.count() / steps;
+            beside_seconds[round] += pair[1].seconds.runs[round];
         }
     }
+    for (double& s : beside_seconds) s *= static_cast<double>(pixels_of(kBeside)) / static_cast<double>(beside_pixels);
     return {timing(std::move(seconds)), timing(std::move(beside_seconds)), held};
 }
 
@@ -122,16 +135,14 @@ Turns take_turns(Bands& frame, Bands& beside, const std::vector<PlaneBuffers>& b
 void measure_sizes(const Device& device, const std::filesystem::path& file, const std::vector<Size>& sizes, Run& run) {
     const Scene from_file = load_scene(file);
     const Resampler resampler(from_file);
-    Bands beside(device, from_file, resampler, kBeside);
-    std::vector<PlaneBuffers> beside_in;
-    for (std::uint32_t band = 0; band < beside.count(); ++band) beside_in.push_back(beside.load(band));
-    const ErrorStats beside_error = sampled_error(device, beside.scene, resampler, kBeside);
+    Beside beside(Bands(device, from_file, resampler, kBeside));
+    const ErrorStats beside_error = sampled_error(device, beside.bands.scene, resampler, kBeside);
     std::vector<Measurement> turned;
     for (const Size size : sizes) {
         ::malloc_trim(0);  // what earlier sizes let go
         const double held_before = resident_bytes();
         Bands frame(device, from_file, resampler, size);
-        const Turns turns = take_turns(frame, beside, beside_in, held_before, few(run.rounds));
+        const Turns turns = take_turns(frame, beside, held_before, few(run.rounds));
         Measurement m{.group = "size",
                       .name = file.stem(),
                       .variant = megapixels(size),
@@ -144,7 +155,7 @@ void measure_sizes(const Device& device, const std::filesystem::path& file, cons
         m.memory = turns.held;
         m.error = sampled_error(device, frame.scene, resampler, size);
         run.measurements.push_back(m);
-        m.group = "size, in turns", m.variant = fmt::format("{}, with {}", megapixels(kBeside), megapixels(size));
+        m.group = "turns", m.variant = fmt::format("{}, with {}", megapixels(kBeside), megapixels(size));
         m.pixels = pixels_of(kBeside), m.seconds = turns.beside, m.memory = 0, m.error = beside_error;
         if (pixels_of(size) != pixels_of(kBeside)) turned.push_back(m);
     }

@@ -41,16 +41,32 @@ TEST(Bars, SayNothingWithinTheSpread) {
     EXPECT_EQ(verdict(run, "8 decals / plain C++"), "not told apart");
 }
 
+TEST(Bars, ComparePixels) {
+    bench::Run run;
+    Measurement large{.group = "size", .name = "courtyard", .variant = "33 Mpixel", .pixels = 4000},
+        small{.group = "turns", .name = "courtyard", .variant = "8 Mpixel, with 33 Mpixel", .pixels = 1000};
+    large.seconds = timing({4.2, 4, 4.4}), small.seconds = timing({1, 1, 1});
+    run.measurements = {large, small};
+    ASSERT_EQ(bars_of(run).size(), 1u);
+    const Bar bar = bars_of(run).front();
+    EXPECT_DOUBLE_EQ(bar.ratio, 1.05);
+    EXPECT_DOUBLE_EQ(bar.high, 1.1);
+    EXPECT_EQ(bar.verdict, "not told apart");
+}
+
 TEST(Bars, CompareBytesWhereTheySaySo) {
     bench::Run run;
     Measurement resolve{.group = "memory", .name = "resolve", .variant = "standard", .pixels = 1000};
     Measurement triad{.group = "memory", .name = "triad", .variant = "C++ past the cache", .pixels = 1000};
-    resolve.seconds = {3, 0.01, {}}, resolve.bytes = 36;
-    triad.seconds = {1, 0.01, {}}, triad.bytes = 12;
+    resolve.seconds = timing({3, 3.3, 2.7}), resolve.bytes = 36;
+    triad.seconds = timing({1, 1, 1}), triad.bytes = 12;
     run.measurements = {resolve, triad};
     ASSERT_EQ(bars_of(run).size(), 1u);
-    EXPECT_DOUBLE_EQ(bars_of(run).front().ratio, 1);
-    EXPECT_EQ(bars_of(run).front().verdict, "met");
+    const Bar bar = bars_of(run).front();
+    EXPECT_DOUBLE_EQ(bar.ratio, 1);
+    EXPECT_DOUBLE_EQ(bar.low, 0.9);
+    EXPECT_DOUBLE_EQ(bar.high, 1.1);
+    EXPECT_EQ(bar.verdict, "met");
 }
 
 }  // namespace

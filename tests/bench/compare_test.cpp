@@ -66,6 +66,7 @@ TEST(Record, ReadsBackWhatItWrote) {
     bench::Run run = run_of({measurement("a", 1, 1e-5)});
     run.measurements[0].hard["grazing"] = {1, 2, 3, 4, 5};
     run.measurements[0].memory = 1e6;
+    run.rounds = {9, 2.5};
     run.bars = {{"a / b", "met", 0.5, 0.01, 0.85, 0.49, 0.52, true, "x", "y", 1e-5, 2e-5, "degrees"}};
     const test::TempFolder folder;
     const auto file = folder / "run.json";

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "measure.h"
+
+namespace wrinkle::bench {
+
+/// slow / fast, the spread of it, and bounds of its median.
+struct Ratio {
+    double value = 0, spread = 0;
+    double low = 0, high = 0;
+    bool meaningful = false;  ///< it differs from 1 by more than its spread
+};
+
+/// Medians of up to 20 consecutive parts of what a race gave: what disturbs a round disturbs its neighbours, so that
+/// rounds are no independent measurements, and parts more nearly so.
+inline std::vector<double> part_medians(const std::vector<double>& rounds) {
+    constexpr std::size_t kParts = 20;
+    const std::size_t parts = std::min(kParts, rounds.size());
+    std::vector<double> medians;
+    for (std::size_t k = 0; k < parts; ++k) {
+        const auto at = [&](std::size_t part) {
+            return rounds.begin() + static_cast<std::ptrdiff_t>(part * rounds.size() / parts);
+        };
+        medians.push_back(timing({at(k), at(k + 1)}).median);
+    }
+    return medians;
+}
+
+/// Between which of their values the median lies with 95% confidence, whatever the distribution: ranks 0.98 sqrt(n)
+/// from the middle (W. Conover, Practical Nonparametric Statistics, 3.2); of ten or fewer, the outermost, which takes
+/// six.
+inline std::pair<double, double> median_bounds(std::vector<double> values) {
+    std::ranges::sort(values);
+    const auto n = static_cast<double>(values.size());
+    const auto below = static_cast<std::size_t>(std::max(std::floor((n - 1.96 * std::sqrt(n)) / 2) - 1, 0.0));
+    return {values[below], values[values.size() - 1 - below]};
+}
+
+/// slow / fast. Of one race: the median of the ratios of its rounds, since what disturbs a round disturbs both; else
+/// the ratio of the medians, and half the spread either way.
+inline Ratio ratio(const Timing& slow, const Timing& fast) {
+    Ratio r{slow.median / fast.median, std::hypot(slow.spread, fast.spread)};
+    r.low = r.value * (1 - r.spread / 2), r.high = r.value * (1 + r.spread / 2);
+    if (slow.runs.size() == fast.runs.size() && !slow.runs.empty()) {
+        std::vector<double> rounds;
+        for (std::size_t i = 0; i < slow.runs.size(); ++i) rounds.push_back(slow.runs[i] / fast.runs[i]);
+        const auto [low, high] = median_bounds(part_medians(rounds));
+        const Timing t = timing(std::move(rounds));
+        r = {t.median, t.spread, low, high};
+    }
+    r.meaningful = std::abs(r.value - 1) > r.spread * r.value;
+    return r;
+}
+
+/// What may be said of a ratio: "3.42x", or that its spread is larger than the effect.
+inline std::string text_of(const Ratio& r) { return r.meaningful ? fmt::format("{:.2f}x", r.value) : "not told apart"; }
+
+}  // namespace wrinkle::bench
