@@ -29,7 +29,7 @@ std::string quoted(const std::string& text) {
 double shown_error(double error) { return std::max(error, 1e-16); }
 
 std::string label(const Measurement& m) {
-    return m.lanes > 0 ? fmt::format("{}, {} lanes", m.variant, m.lanes) : m.variant;
+    return m.lanes > 0 ? fmt::format("{}, {} lane{}", m.variant, m.lanes, m.lanes == 1 ? "" : "s") : m.variant;
 }
 
 /// No other is at once faster and more accurate.
@@ -55,7 +55,8 @@ std::string points(const char* block, const std::vector<const Measurement*>& all
 /// Error against time of the variants of one thing; the front is a line.
 std::string pareto(const std::string& name, const std::vector<const Measurement*>& all) {
     return fmt::format(
-        "set title {}\nset xlabel {}\nset ylabel \"ns per pixel\"\nset logscale xy\nset format x \"%.0e\"\n{}{}"
+        "set title {} noenhanced\nset xlabel {}\nset ylabel \"ns per pixel\"\nset logscale xy\nset format x \"%.0e\"\n"
+        "set offsets graph 0.08, graph 0.08, graph 0.12, graph 0.05\n{}{}"
         "plot $front using 1:2 with lines lc rgb \"#c05020\" lw 2 notitle, "
         "$all using 1:2 with points pt 7 ps 0.7 lc rgb \"#205080\" notitle, "
         "$all using 1:2:3 with labels offset 0,0.9 font \",9\" noenhanced notitle\n",
@@ -87,12 +88,20 @@ std::string labels_of(std::vector<RoofPoint> points) {
     return data + "EOD\n";
 }
 
+/// Of what was measured on several lanes, the fastest only.
+bool fastest_lanes(const Measurement& m, const Run& run) {
+    return std::ranges::none_of(run.measurements, [&](const Measurement& other) {
+        return other.group == m.group && other.name == m.name && other.variant == m.variant &&
+               other.pixels == m.pixels && other.seconds.median < m.seconds.median;
+    });
+}
+
 /// Arithmetic per byte against speed, under the ceilings of the machine.
 std::string roofline(const Run& run) {
     std::string data = "$all << EOD\n";
     std::vector<RoofPoint> points;
     for (const Measurement& m : run.measurements)
-        if (m.seconds.median > 0 && m.counted() && m.lanes > 0 && m.variant != "double") {
+        if (m.seconds.median > 0 && m.counted() && m.lanes > 0 && m.variant != "double" && fastest_lanes(m, run)) {
             const double x = m.operations / m.bytes, y = m.gflop_per_s();
             const double roof = std::min(x * run.ceilings.copy_gb_s, run.ceilings.fma_gflop_s);
             data += fmt::format("{:.6g} {:.6g}\n", x, y);

@@ -120,7 +120,9 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
 void wait_quietly(char** argv) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
     ::setenv("OMP_WAIT_POLICY", "passive", 1);
-    ::execv("/proc/self/exe", argv);
+    std::error_code unknown;
+    const fs::path self = fs::read_symlink("/proc/self/exe", unknown);  // by its name, for ps and kill
+    ::execv(self.c_str(), argv);
 }
 
 }  // namespace
