@@ -144,8 +144,10 @@ int main(int argc, char** argv) {
     try {
         const Device device = Device::open(arguments.device);
         bench::Run run;
-        if (!arguments.compare.empty())
-            bench::read_run(arguments.compare);  // a bad file is found out before minutes pass
+        // Bad files are found out before minutes pass.
+        if (!arguments.compare.empty()) bench::read_run(arguments.compare);
+        if (!arguments.report.empty()) bench::make_folder(arguments.report);
+        if (arguments.json.has_parent_path()) bench::make_folder(arguments.json.parent_path());
         run.device =
             fmt::format("{}, {} compute units, {}", device.info.name, device.info.compute_units, device.info.driver);
         run.processor = bench::processor_name();

@@ -127,10 +127,14 @@ void print(const Run& run) {
 
 void write_json(const Run& run, const fs::path& file) { write_text(file, to_json(run).dump(1) + "\n"); }
 
-void write_report(const Run& run, const fs::path& folder) {
+void make_folder(const fs::path& folder) {
     std::error_code failed;
     fs::create_directories(folder, failed);
     if (failed) throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), failed.message()));
+}
+
+void write_report(const Run& run, const fs::path& folder) {
+    make_folder(folder);
     write_json(run, folder / "run.json");
     write_text(folder / "run.csv", csv(run));
     const auto svgs = charts(run);

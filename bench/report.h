@@ -10,6 +10,9 @@ void print(const Run& run);
 
 void write_json(const Run& run, const std::filesystem::path& file);
 
+/// Throws Error when there is none and none can be made.
+void make_folder(const std::filesystem::path& folder);
+
 /// run.json, run.csv, the charts as SVG, and index.html, which holds all of it in one file.
 void write_report(const Run& run, const std::filesystem::path& folder);
 
