@@ -48,7 +48,7 @@ inline std::string text_of(const Rounds& rounds) {
                        rounds.seconds > 0 ? fmt::format(", races of {:g} s or longer", rounds.seconds) : "");
 }
 
-/// Fewer, for work that takes seconds; enough that the outermost hold the median with 97%.
+/// Fewer, for work that takes seconds: no more than it takes for the outermost to hold the median with 97%.
 inline Rounds few(const Rounds& rounds) { return {std::min(6, rounds.least), rounds.seconds}; }
 
 inline double seconds_of(const std::function<void()>& work) {
