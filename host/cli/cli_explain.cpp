@@ -12,9 +12,10 @@
 #include "device/kernel_sources.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
+#include "resources/volume_heap.h"
+#include "run/bin_report.h"
+#include "run/open_frame.h"
 #include "run/pass_impl.h"
-#include "run/render.h"
-#include "run/volume_heap.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {

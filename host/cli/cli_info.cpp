@@ -3,10 +3,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/names.h"
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "io/info.h"
-#include "io/names.h"
 
 namespace wrinkle::cli {
 
@@ -99,7 +99,7 @@ struct InfoArguments {
 void info(const InfoArguments& arguments) {
     GBufferSource source;
     std::optional<CameraSource> camera;
-    if (io::lower(arguments.file.extension().string()) == ".toml") {
+    if (lower(arguments.file.extension().string()) == ".toml") {
         const Scene scene = load_scene(arguments.file);
         source = scene.gbuffer;
         camera = scene.camera;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/names.h"
 #include "functions/tables.h"
 #include "io/volume_file.h"
-#include "run/frame_constants.h"
-#include "run/texture_heap.h"
-#include "scene/problems.h"
+#include "resources/frame_constants.h"
+#include "resources/texture_heap.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -90,7 +90,7 @@ PlannedTexture volume_of(const std::filesystem::path& name, Kind kind) {
     const std::string file = text.substr(0, hash), grid = hash == std::string::npos ? "" : text.substr(hash + 1);
     const VolumeInfo info = volume_info(file, grid);
     if ((info.channels == 3) != (kind == Kind::vector_volume))
-        throw Error(fmt::format("{}: the grid {} holds {}; {} are expected", file, scene::quote(info.grid),
+        throw Error(fmt::format("{}: the grid {} holds {}; {} are expected", file, quote(info.grid),
                                 info.channels == 3 ? "vectors" : "numbers",
                                 info.channels == 3 ? "numbers" : "vectors"));
     return {{.file = file}, kind == Kind::smooth_volume ? TexelKind::volume_smooth : TexelKind::volume, grid};
@@ -162,8 +162,7 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
     for (const Setting& setting : function.settings) known.push_back(setting.name);
     for (const auto& [name, value] : values)
         if (std::ranges::find(known, name) == known.end())
-            throw Error(
-                fmt::format("{} has no setting \"{}\"{}", function.name, name, scene::did_you_mean(name, known)));
+            throw Error(fmt::format("{} has no setting \"{}\"{}", function.name, name, did_you_mean(name, known)));
     ColumnData data;
     std::vector<PlannedTexture> textures;
     for (const Setting& setting : function.settings) {

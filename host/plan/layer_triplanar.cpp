@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/vec.h"
 #include "plan/layer_text.h"
-#include "scene/vec.h"
 
 namespace wrinkle {
 
@@ -17,7 +17,7 @@ struct Projection {
     Vec3 offset{};
     bool along_axes = true;  ///< a diagonal matrix
 
-    double size(std::size_t k) const { return std::sqrt(scene::dot(rows[k], rows[k])); }  ///< repeats per metre
+    double size(std::size_t k) const { return std::sqrt(dot(rows[k], rows[k])); }  ///< repeats per metre
 };
 
 /// One of the three planes: the components of q that are its coordinates, and its names in the kernel text.
@@ -36,7 +36,7 @@ Projection projection_of(const TriplanarLayer& l) {
             to.rows[k][j] = sign * object[k][j] / (l.transform.scale[k] * l.tile);
             to.along_axes &= j == k || to.rows[k][j] == 0;
         }
-        to.offset[k] = -scene::dot(to.rows[k], l.transform.translate);
+        to.offset[k] = -dot(to.rows[k], l.transform.translate);
     }
     return to;
 }

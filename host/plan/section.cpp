@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "io/names.h"
+#include "base/names.h"
 #include "plan/precision.h"
 #include "wrinkle/error.h"
 
@@ -87,7 +87,7 @@ void Emitter::need(const std::string& who, const std::vector<std::string>& plane
     if (missing.front().starts_with(channel) && !channels.empty()) {
         const std::string name = missing.front().substr(channel.size());
         throw Error(fmt::format("{} needs the channel \"{}\"; nearest: \"{}\"; the G-buffer has {}", who, name,
-                                io::nearest_name(name, channels), listed(channels)));
+                                nearest_name(name, channels), listed(channels)));
     }
     throw Error(
         fmt::format("{} needs {}; the G-buffer has {}; if another channel holds it, name that in [gbuffer] roles", who,

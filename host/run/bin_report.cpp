@@ -1,10 +1,11 @@
+#include "run/bin_report.h"
+
 #include "device/guarded.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
-#include "run/render.h"
 
 namespace wrinkle {
 

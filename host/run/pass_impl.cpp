@@ -8,8 +8,8 @@
 
 #include "io/volume_file.h"
 #include "plan/section.h"
-#include "run/frame_constants.h"
-#include "run/texture_heap.h"
+#include "resources/frame_constants.h"
+#include "resources/texture_heap.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {

@@ -4,7 +4,7 @@
 
 #include "device/program.h"
 #include "plan/plan.h"
-#include "run/decal_bins.h"
+#include "resources/decal_bins.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scene/vec.h"
+#include "base/vec.h"
 
 namespace wrinkle::scene {
 

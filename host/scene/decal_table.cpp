@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/csv_rows.h"
 #include "io/csv_table.h"
 #include "io/npy_records.h"
@@ -90,7 +90,7 @@ void save_decals(const std::filesystem::path& file, const std::vector<Projector>
             rows, [&, usual = column.write(standard)](const Projector& row) { return column.write(row) != usual; });
         if (differs || &column < decal_columns().data() + kRequiredColumns) used.push_back(&column);
     }
-    io::AtomicFile out(file);
+    AtomicFile out(file);
     out.write(is_toml(file) ? decal_toml(used, rows) : csv_text(used, rows));
     out.commit();
 }

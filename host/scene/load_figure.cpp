@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/names.h"
 #include "io/frame_path.h"
 #include "scene/figure.h"
 #include "scene/readers.h"

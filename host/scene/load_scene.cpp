@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/names.h"
 #include "scene/files.h"
 #include "scene/readers.h"
 #include "wrinkle/error.h"
@@ -80,7 +81,7 @@ void read_scene(Table& root, Scene& out) {
 
 Scene load_scene(const std::filesystem::path& file) {
     const toml::table values = scene::parse_scene_file(file);
-    scene::Document document{file.parent_path(), true, scene::Problems(file.string())};
+    scene::Document document{file.parent_path(), true, Problems(file.string())};
     scene::Table root(document, values, "the scene", 1);
     Scene out;
     out.file = file;

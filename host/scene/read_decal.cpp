@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/vec.h"
 #include "scene/layer_readers.h"
-#include "scene/vec.h"
 
 namespace wrinkle::scene {
 

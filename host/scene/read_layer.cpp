@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/names.h"
 #include "scene/kinds.h"
 #include "scene/layer_readers.h"
 

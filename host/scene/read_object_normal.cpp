@@ -2,8 +2,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/vec.h"
 #include "scene/layer_readers.h"
-#include "scene/vec.h"
 
 namespace wrinkle::scene {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "run/frame_constants.h"
+#include "resources/frame_constants.h"
 #include "tests/cases/cases.h"
 #include "tests/reference/screen_derivative.h"
 

@@ -1,7 +1,7 @@
 // constants.clh: the thresholds where functions use them.
 #include <gtest/gtest.h>
 
-#include "run/frame_constants.h"
+#include "resources/frame_constants.h"
 #include "tests/kernels/kernel_function.h"
 
 namespace wrinkle::test {

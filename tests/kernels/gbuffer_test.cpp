@@ -1,7 +1,7 @@
 // surface/gbuffer.clh
 #include <gtest/gtest.h>
 
-#include "run/frame_constants.h"
+#include "resources/frame_constants.h"
 #include "tests/kernels/check.h"
 #include "tests/reference/resolve.h"
 

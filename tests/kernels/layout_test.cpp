@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "run/frame_constants.h"
+#include "resources/frame_constants.h"
 #include "tests/kernels/kernel_function.h"
 
 namespace wrinkle::test {
