@@ -31,7 +31,7 @@ std::string grow_text(const Emitter& emitter, const MovedPoints& moved) {
 
 }  // namespace
 
-PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
+PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     const GeometryText geometry = geometry_text(emitter);
     const MovedPoints moved = moved_points(emitter, kIndent);
     std::vector<std::string> inputs = geometry.planes;
@@ -40,7 +40,8 @@ PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
     for (const std::string& plane : inputs)
         planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
     source += fmt::format(
-        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *axes, global float *bounds,
+        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *numbers,
+    constant const WR_SCALAR *axes, global float *bounds,
     uint tiles, uint supers,
 {}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
 {{
@@ -63,6 +64,41 @@ PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
         moved.by_normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent),
         geometry.position, grow_text(emitter, moved));
     return {"wr_bin_tiles", inputs, {}, {}, 0};
+}
+
+PlannedKernel emit_bins(Emitter& emitter, std::string& source) {
+    const PlannedKernel tiles = emit_tiles(emitter, source);
+    const char* binned =
+        "global const float *boxes, global const float *bounds, global const float *groups, uint decals,\n"
+        "    global uint *entries, uint capacity, global uint *used";
+    source += fmt::format(
+        R"(kernel void wr_bin_parents(global const float *child_bounds, global float *bounds, uint parents)
+{{
+    if (get_global_id(0) < parents)
+        wr_bin_around(child_bounds, 16 * parents, get_global_id(0), bounds, parents);
+}}
+
+kernel void wr_bin_supers({0},
+    global const float *tile_bounds, uint tiles, global uint *lists)
+{{
+    wr_binned all = {{boxes, bounds, groups, decals}};
+    if (get_global_id(0) < tiles)
+        wr_bin_super(all, tile_bounds, tiles, get_global_id(0), lists, entries, capacity, used);
+}}
+
+kernel void wr_bin_lists({0},
+    global const float *child_bounds, uint parents, global const uint *parent_lists, global uint *child_lists,
+    global ushort *hits)
+{{
+    wr_binned all = {{boxes, bounds, groups, decals}};
+    if (get_global_id(0) < parents)
+        wr_bin_children(all, child_bounds, 16 * parents, get_global_id(0), parent_lists, child_lists, entries, hits,
+                        capacity, used);
+}}
+
+)",
+        binned);
+    return tiles;
 }
 
 }  // namespace wrinkle

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "budget/choose_precision.h"
+#include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "tests/io/files.h"
 #include "tests/run/run_frame.h"
@@ -97,8 +98,8 @@ TEST(Budget, TheTableKnowsEveryLayerOfTheScenes) {
         const Scene scene = load_scene(entry.path());
         for (std::size_t i = 0; i < scene.layers.size(); ++i) {
             if (std::holds_alternative<ResolveLayer>(scene.layers[i].bump)) continue;
-            const std::string kind = cost_kind(scene.layers[i]).name;
-            for (const Precision precision : layer_precisions(scene, i, CameraKind::pinhole))
+            const std::string kind = cost_kind(layer_kinds(), scene.layers[i]).name;
+            for (const Precision precision : layer_precisions(layer_kinds(), scene, i, CameraKind::pinhole))
                 EXPECT_TRUE(costs.find(kind, precision)) << kind << " " << precision_name(precision);
             EXPECT_TRUE(costs.find(kind, Precision::fp64)) << kind;
         }

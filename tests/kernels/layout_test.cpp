@@ -66,14 +66,6 @@ TEST(Layout, Frame) {
     check_layout("wr_frame", members, sizeof s);
 }
 
-TEST(Layout, Decal) {
-    const auto s = counted<wr_decal>();
-    std::vector<Member> members;
-    MEMBER(center), MEMBER(to_box_x), MEMBER(to_box_y), MEMBER(to_box_z), MEMBER(gradient_s), MEMBER(gradient_t);
-    MEMBER(axis_z), MEMBER(falloff), MEMBER(fade_zero), MEMBER(fade_slope), MEMBER(texture);
-    check_layout("wr_decal", members, sizeof s);
-}
-
 TEST(Layout, Projector) {
     const auto s = counted<wr_projector>();
     std::vector<Member> members;

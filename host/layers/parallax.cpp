@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "layers/common.h"
 #include "plan/geometry_text.h"
-#include "plan/layer_text.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -12,6 +12,25 @@ namespace {
 
 constexpr double kProjection = 140, kMove = 40, kHeightSample = 40;  // expected operations
 constexpr double kDeepest = 1e6;                                     // metres; keeps what is moved within float32
+
+void read(scene::Table& table, Layer& layer) {
+    ParallaxLayer bump;
+    scene::read_texture_file(table, bump.texture);
+    scene::read_mapped(table, bump.texture, bump.uv);
+    table.choose("mode", bump.mode, {{"offset", ParallaxMode::offset}, {"march", ParallaxMode::march}});
+    table.read("steps", bump.steps, 1, 1024);
+    table.read("refine", bump.refine, 0, 16);
+    for (const char* key : {"steps", "refine"}) table.only_with(key, bump.mode == ParallaxMode::march, "mode", "march");
+    table.read("level", bump.level, scene::zero_to_one);
+    table.read("curved", bump.curved);
+    table.read("scale", layer.scale, {.low = 0, .high = 1e6, .low_is_allowed = false});
+    scene::read_place(table, layer);
+    layer.bump = bump;
+}
+
+double scale(const Layer& layer) { return layer.scale; }
+
+const ParallaxLayer& parallax_of(const Layer& layer) { return std::get<ParallaxLayer>(layer.bump); }
 
 bool on_uv_plane(const Layer& layer) {
     const auto reads = [](const auto& bump) {
@@ -33,12 +52,16 @@ bool moves_uv(const LayerText& at) {
 double farthest(double level) { return 0.5 / std::max(1 - level, 0.5 / kDeepest); }
 
 /// Kernel text of how far along the ray a height of 1 lies in front of a height of 0.
-std::string reach_text(const Emitter& emitter, const ParallaxLayer& l, const std::string& cosine,
-                       const std::string& depth, const std::string& distance) {
-    return fmt::format("wr_parallax_reach({}, {}, {})", l.mode == ParallaxMode::march ? cosine : "(real)(1)", depth,
-                       emitter.available.camera == CameraKind::parallel
-                           ? fmt::format("(real)({})", literal(20 * kDeepest))
-                           : fmt::format("{} * {}", distance, literal(farthest(l.level))));
+std::string reach_text(Emitter& emitter, const Layer& layer, const std::string& cosine, const std::string& depth,
+                       const std::string& distance) {
+    const std::string most = emitter.number(
+        layer, "farthest", [parallel = emitter.available.camera == CameraKind::parallel](const Layer& l) {
+            return parallel ? 20 * kDeepest : farthest(parallax_of(l).level);
+        });
+    return fmt::format("wr_parallax_reach({}, {}, {})",
+                       parallax_of(layer).mode == ParallaxMode::march ? cosine : "(real)(1)", depth,
+                       emitter.available.camera == CameraKind::parallel ? fmt::format("(real)({})", most)
+                                                                        : fmt::format("{} * {}", distance, most));
 }
 
 /// Turns n and puts the derivatives onto the plane of the new one.
@@ -62,9 +85,8 @@ std::string turn(LayerText& at, bool uv) {
     return text;
 }
 
-}  // namespace
-
-std::string emit(LayerText& at, const ParallaxLayer& l) {
+std::string emit(LayerText& at) {
+    const ParallaxLayer& l = parallax_of(at.layer);
     if (!(at.layer.scale > 0 && at.layer.scale <= kDeepest))
         throw Error(fmt::format("{}: scale is {}; the depth of a parallax is above 0 and at most {} metres", at.who,
                                 at.layer.scale, kDeepest));
@@ -78,11 +100,11 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
 
     const std::string name =
         fmt::format("wr_{}{}", march ? "parallax_march" : "height", l.texture.wrap == Wrap::clamp ? "_clamp" : "");
-    std::string text = at.located(l.texture, TexelKind::height, l.uv);
+    std::string text = at.located(l.texture, TexelKind::height);
     text += fmt::format("        vec3 v = {};\n", to_viewer_text(at.emitter));
     if (!parallel) text += "        real distance = sqrt(wr_dot(p, p));\n";
-    text += fmt::format("        real reach = {};\n",
-                        reach_text(at.emitter, l, "wr_dot(n, v)", "m * " + literal(at.layer.scale), "distance"));
+    text += fmt::format("        real reach = {};\n", reach_text(at.emitter, at.layer, "wr_dot(n, v)",
+                                                                 "m * " + at.number("scale", scale), "distance"));
     const char* project = "wr_project_to_texture(n, dp_dx, dp_dy, {}, {}, v)";
     if (at.layer.footprint || l.curved)
         text += fmt::format(
@@ -91,15 +113,19 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
     if (at.layer.footprint) text += "        reach *= wr_parallax_weight(reach * sqrt(wr_dot(pixels, pixels)));\n";
     text += "        active = active & (reach > 0);\n        if (wr_any(active)) {\n";
     text += fmt::format("        real lod = {};\n", at.lod("c.dx", "c.dy"));
+    const std::string level = at.number("level", [](const Layer& layer) { return parallax_of(layer).level; });
     if (march)
         text += fmt::format(
             "        vec2 range = wr_scale({0}, reach);\n"
-            "        real step = wr_parallax_step(t, range, lod, {1});\n"
-            "        real h = {2}(t, c.st, range, {3}, lod, step, {1}, {4}, active);\n",
-            fmt::format(fmt::runtime(project), "c.dx", "c.dy"), l.steps, name, literal(l.level), l.refine);
+            "        int steps = (int){1};\n"
+            "        real step = wr_parallax_step(t, range, lod, steps);\n"
+            "        real h = {2}(t, c.st, range, {3}, lod, step, steps, (int){4}, active);\n",
+            fmt::format(fmt::runtime(project), "c.dx", "c.dy"),
+            at.number("steps", [](const Layer& layer) { return static_cast<double>(parallax_of(layer).steps); }), name, level,
+            at.number("refine", [](const Layer& layer) { return static_cast<double>(parallax_of(layer).refine); }));
     else
         text += fmt::format("        real h = wr_clamp({}(t, c.st, lod));\n", name);
-    text += fmt::format("        real nearer = active ? reach * (h - {}) : (real)(0);\n", literal(l.level));
+    text += fmt::format("        real nearer = active ? reach * (h - {}) : (real)(0);\n", level);
     if (uv)
         text += fmt::format("        uv.st = wr_add(uv.st, wr_scale({}, nearer));\n",
                             fmt::format(fmt::runtime(project), "uv.dx", "uv.dy"));
@@ -114,29 +140,28 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
     return text + "        }\n";
 }
 
-MovedPoints moved_points(const Emitter& emitter, const std::string& indent) {
-    const std::vector<Layer>& layers = emitter.scene.layers;
-    const auto is_table = [](const Layer& layer) { return std::holds_alternative<DecalsLayer>(layer.bump); };
-    const auto last = std::find_if(layers.rbegin(), layers.rend(), is_table).base();
-    MovedPoints moved;
-    bool own_normal = true;  // n is still the base normal
-    for (auto layer = layers.begin(); layer != last; ++layer) {
-        if (std::holds_alternative<ResolveLayer>(layer->bump)) own_normal = false;
-        const auto* l = std::get_if<ParallaxLayer>(&layer->bump);
-        if (!l) continue;
-        moved.by_normal |= own_normal && l->mode == ParallaxMode::march;
-        const std::string depth = fmt::format("(real)(WR_BIN_BOX_SLACK * {})", literal(layer->scale));
-        const auto add = [&](const char* way, double share, const char* distance) {
-            if (share > 0)
-                moved.text += fmt::format(
-                    "{}{} += {} * {};\n", indent, way, literal(share),
-                    reach_text(emitter, *l, own_normal ? "fabs(wr_dot(n, v))" : "(real)(0)", depth, distance));
-        };
-        add("nearer", 1 - l->level, "(distance - nearer)");
-        add("farther", l->level, "(distance + farther)");
-        own_normal &= !l->curved;
-    }
-    return moved;
+MovedPoint moves(Emitter& emitter, const Layer& layer, bool own_normal) {
+    const ParallaxLayer& l = parallax_of(layer);
+    const std::string depth = fmt::format("(real)(WR_BIN_BOX_SLACK * {})", emitter.number(layer, "scale", scale));
+    const auto way = [&](const char* what, double (*share)(const Layer&), const char* distance) {
+        return fmt::format(
+            "{} * {}", emitter.number(layer, what, share),
+            reach_text(emitter, layer, own_normal ? "fabs(wr_dot(n, v))" : "(real)(0)", depth, distance));
+    };
+    return {.nearer = way(
+                "1 - level", [](const Layer& of) { return 1 - parallax_of(of).level; }, "(distance - nearer)"),
+            .farther = way(
+                "level", [](const Layer& of) { return parallax_of(of).level; }, "(distance + farther)"),
+            .by_normal = own_normal && l.mode == ParallaxMode::march,
+            .turns = l.curved};
+}
+
+}  // namespace
+
+const LayerKind& layers::parallax() {
+    static constexpr LayerKind row{
+        .name = ParallaxLayer::kind, .read = read, .emit = emit, .uses = layers::on_uv, .moves = moves};
+    return row;
 }
 
 }  // namespace wrinkle
