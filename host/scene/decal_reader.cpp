@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/names.h"
 #include "base/vec.h"
 
 namespace wrinkle::scene {

@@ -60,8 +60,10 @@ std::vector<Projector> load_npy(const std::filesystem::path& file, std::size_t t
 
 std::string csv_text(std::span<const DecalColumn* const> columns, const std::vector<Projector>& rows) {
     std::string text;
-    for (const DecalColumn* column : columns)
-        text += (column == columns.front() ? "" : ",") + std::string(column->name);
+    for (const DecalColumn* column : columns) {
+        if (column != columns.front()) text += ',';
+        text += column->name;
+    }
     for (const Projector& row : rows) {
         text += '\n';
         for (const DecalColumn* column : columns) {
