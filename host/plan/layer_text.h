@@ -27,7 +27,7 @@ struct LayerText {
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
     /// Declares coordinates `c`, by the layer's own mapping, texture `t` and its sample.
-    std::string textured(const TextureUse& use, const char* declared = "vec2 slope");
+    std::string textured(const TextureUse& use, const char* declared = "wr_vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind);
     /// Adds the surface gradient of a height, of the kernel function of that name and its arguments after dp_dx, dp_dy.
