@@ -121,7 +121,7 @@ std::vector<Function> source_functions() {
                      result(number("falloff", "1", "fade towards the faces"), {absolute})},
          .variants = {{standard,
                        "wr_decal_point at_box = wr_decal_locate(decal, p);\n"
-                       "q = at_box.q, st = at_box.st, inside = at_box.inside ? (real)(1) : (real)(0);\n"
+                       "q = at_box.q, st = at_box.st, inside = at_box.inside ? (wr_real)(1) : (wr_real)(0);\n"
                        "falloff = wr_decal_falloff(decal, at_box);",
                        {1e-5, 1e-5, 0, 1e-4}}},
          .note = "For points up to 10 half sizes from the eye; the fade of a narrow falloff magnifies the error of q."},

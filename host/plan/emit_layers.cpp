@@ -43,7 +43,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     std::string condition = "wr_any(active)";
     if (emitter.options.switches)
         condition = fmt::format("origins[{}] != 0 && {}", 4 * emitter.origin({.fourth = layer.scale}) + 3, condition);
-    section.body = mask + (emitter.options.skip ? "" : "        active = (mask)(-1);\n") +
+    section.body = mask + (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
     return section;
 }

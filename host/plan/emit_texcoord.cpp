@@ -49,7 +49,7 @@ namespace {
 std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
-    std::string text = "        real m = 1;\n";
+    std::string text = "        wr_real m = 1;\n";
     const auto factor = [&](const std::string& value) {
         text += fmt::format("        m *= {};\n", value);
         section.operations += 2;
@@ -61,7 +61,7 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
     }
     if (mask.cryptomatte) {
         emitter.need(who, {"crypto.id0", "crypto.coverage0"});
-        text += "        real covered = 0;\n";
+        text += "        wr_real covered = 0;\n";
         for (int rank = 0; emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
             const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
             section.inputs.insert({id, coverage});
@@ -89,7 +89,7 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
         return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
     };
     if (std::ranges::any_of(layers, anywhere)) return {};
-    std::string text = "        mask wanted = 0;\n";
+    std::string text = "        wr_mask wanted = 0;\n";
     for (const Layer* layer : layers) {
         text += "        {\n" + mask_of_planes(emitter, *layer, section) +
                 (layer->mask.invert ? "        m = 1 - m;\n" : "") + "        wanted = wanted | (m != 0);\n        }\n";
@@ -108,18 +108,18 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
             "        wr_texture t = wr_texture_at(texels, textures, {});\n"
             "        m *= wr_mask_channel(wr_texture_sample1(t, wr_repeat(c.st.x), wr_repeat(c.st.y), {}));\n        "
             "}}\n",
-            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(real)(0)");
+            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(wr_real)(0)");
         section.operations += 60;
     }
     if (mask.invert) text += "        m = 1 - m;\n";
     if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion: unknown is not "outside"
-        text += "        m = uv_valid ? m : (real)(0);\n";
+        text += "        m = uv_valid ? m : (wr_real)(0);\n";
     if (mask.channel && mask.invert) {
         const std::string value = fmt::format("wr_load({}, at.in)", identifier("channel:" + *mask.channel));
-        text += fmt::format("        m = {0} == {0} ? m : (real)(0);\n", value);
+        text += fmt::format("        m = {0} == {0} ? m : (wr_real)(0);\n", value);
     }
     section.reads.insert("valid");
-    text += "        mask active = valid & (m != 0);\n";
+    text += "        wr_mask active = valid & (m != 0);\n";
     return text;
 }
 

@@ -48,10 +48,10 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
         R"(        for (uint i = {}; i < {}; ++i) {{
             global const wr_decal *decal = decals + i;
             wr_decal_point in = wr_decal_locate(decal, p);
-{}            real weight = m * wr_decal_falloff(decal, in){};
+{}            wr_real weight = m * wr_decal_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
-            real lod = {};
-            vec2 slope = {};
+            wr_real lod = {};
+            wr_vec2 slope = {};
             {}
         }}
 )",
@@ -60,7 +60,7 @@ std::string emit_decals(LayerText& at, const std::vector<const Layer*>& layers) 
         facing ? "" : " * wr_decal_angle_fade(decal, n)",
         layer.footprint ? "wr_texture_lod(t, wr_decal_step(decal, dp_dx), wr_decal_step(decal, dp_dy))" : "0",
         sample_text(std::get<DecalLayer>(layer.bump).texture, "in.st", "lod", "weight != 0"),
-        projector ? "vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+        projector ? "wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
                     "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_decal_bumped_axis(decal, slope), "
                     "weight), below));"
                   : "dh_dp = wr_add(dh_dp, wr_decal_gradient(decal, slope, weight));");

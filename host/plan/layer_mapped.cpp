@@ -61,7 +61,7 @@ std::string emit_taps(LayerText& at, const HeightMapLayer& l) {
     if (l.texture.wrap == Wrap::clamp) throw Error(at.who + ": upscale = \"taps\" repeats; wrap must not be \"clamp\"");
     at.section.operations += kTaps;
     return at.located(l.texture, TexelKind::height, l.uv) +
-           fmt::format("        vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n", at.lod("c.dx", "c.dy")) +
+           fmt::format("        wr_vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n", at.lod("c.dx", "c.dy")) +
            at.slopes("from_screen_slope", "dh");
 }
 
@@ -74,13 +74,14 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
         at.section.reads.insert({"vertex_tb", "vertex_tb_valid"});
         for (const std::size_t i : {0u, 1u})  // a mirrored texture
             if (l.uv.scale[i] < 0) text += fmt::format("        slope.{0} = -slope.{0};\n", i == 0 ? 'x' : 'y');
-        text += "        m = vertex_tb_valid ? m : (real)(0);\n";
+        text += "        m = vertex_tb_valid ? m : (wr_real)(0);\n";
         at.section.operations += 8;
     } else {
-        text += fmt::format("        wr_frame_tb f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
+        text += fmt::format("        wr_tangents f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
         at.section.operations += kFrame;
         if (l.uv.source == UvSource::planar)
-            text += fmt::format("        m = wr_has_planar_frame(n, {}) ? m : (real)(0);\n", literal(plane_axis(l.uv)));
+            text +=
+                fmt::format("        m = wr_has_planar_frame(n, {}) ? m : (wr_real)(0);\n", literal(plane_axis(l.uv)));
     }
     const char* frame = planes ? "vertex_tb" : "f";
     if (l.combine == Combine::surface_gradient)
@@ -89,8 +90,8 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
     at.section.operations += kCombine;
     at.section.reads.insert("dh_dp");
     return text + fmt::format(
-                      "        vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
-                      "        vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (real)({}));\n"
+                      "        wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                      "        wr_vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (wr_real)({}));\n"
                       "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
                       frame, at.strength(), combine_function(l.combine));
 }

@@ -112,7 +112,7 @@ std::string noise_over(LayerText& at, const NoiseLayer& l, const NoiseSpace& spa
                              4 * add_lattice(at.emitter, l, space, true));
     }
     return fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {});\n", fractal_text(l, pairs), points,
-                       at.layer.footprint ? space.footprint : "(real)(0)", space.active) +
+                       at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active) +
            shape_text(l.shape);
 }
 

@@ -37,7 +37,7 @@ Rows normal_matrix(const Rows& m, const std::string& who) {
 }  // namespace
 
 std::string emit(LayerText& at, const ObjectNormalLayer& l) {
-    std::string text = at.textured(l.texture, l.uv, "vec3 v");
+    std::string text = at.textured(l.texture, l.uv, "wr_vec3 v");
     at.section.operations += kPerturbedNormal;
     if (l.channels != kIdentity || l.object_to_world != kIdentity) {
         const Rows normals = normal_matrix(l.object_to_world, at.who);

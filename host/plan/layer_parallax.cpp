@@ -35,9 +35,9 @@ double farthest(double level) { return 0.5 / std::max(1 - level, 0.5 / kDeepest)
 /// Kernel text of how far along the ray a height of 1 lies in front of a height of 0.
 std::string reach_text(const Emitter& emitter, const ParallaxLayer& l, const std::string& cosine,
                        const std::string& depth, const std::string& distance) {
-    return fmt::format("wr_parallax_reach({}, {}, {})", l.mode == ParallaxMode::march ? cosine : "(real)(1)", depth,
+    return fmt::format("wr_parallax_reach({}, {}, {})", l.mode == ParallaxMode::march ? cosine : "(wr_real)(1)", depth,
                        emitter.available.camera == CameraKind::parallel
-                           ? fmt::format("(real)({})", literal(20 * kDeepest))
+                           ? fmt::format("(wr_real)({})", literal(20 * kDeepest))
                            : fmt::format("{} * {}", distance, literal(farthest(l.level))));
 }
 
@@ -47,8 +47,8 @@ std::string turn(LayerText& at, bool uv) {
     at.section.writes.insert("n");
     at.section.operations += 90 + (uv ? 2 * kProjection : 0);
     std::string text =
-        "        vec3 flat = n, flat_dx = dp_dx, flat_dy = dp_dy;\n"
-        "        vec3 turned = wr_parallax_normal(n, dn_dx, dn_dy, wr_scale(pixels, nearer), v);\n"
+        "        wr_vec3 flat = n, flat_dx = dp_dx, flat_dy = dp_dy;\n"
+        "        wr_vec3 turned = wr_parallax_normal(n, dn_dx, dn_dy, wr_scale(pixels, nearer), v);\n"
         "        n = wr_select(active, turned, n);\n"
         "        {\n" +
         derivative_text(at.emitter) +
@@ -56,8 +56,8 @@ std::string turn(LayerText& at, bool uv) {
         "        dp_dx = wr_select(active, dp_dx, flat_dx), dp_dy = wr_select(active, dp_dy, flat_dy);\n";
     if (uv)
         text +=
-            "        vec2 uv_dx = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dx);\n"
-            "        vec2 uv_dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy);\n"
+            "        wr_vec2 uv_dx = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dx);\n"
+            "        wr_vec2 uv_dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy);\n"
             "        uv.dx = wr_select(active, uv_dx, uv.dx), uv.dy = wr_select(active, uv_dy, uv.dy);\n";
     return text;
 }
@@ -79,32 +79,32 @@ std::string emit(LayerText& at, const ParallaxLayer& l) {
     const std::string name =
         fmt::format("wr_{}{}", march ? "parallax_march" : "height", l.texture.wrap == Wrap::clamp ? "_clamp" : "");
     std::string text = at.located(l.texture, TexelKind::height, l.uv);
-    text += fmt::format("        vec3 v = {};\n", to_viewer_text(at.emitter));
-    if (!parallel) text += "        real distance = sqrt(wr_dot(p, p));\n";
-    text += fmt::format("        real reach = {};\n",
+    text += fmt::format("        wr_vec3 v = {};\n", to_viewer_text(at.emitter));
+    if (!parallel) text += "        wr_real distance = sqrt(wr_dot(p, p));\n";
+    text += fmt::format("        wr_real reach = {};\n",
                         reach_text(at.emitter, l, "wr_dot(n, v)", "m * " + literal(at.layer.scale), "distance"));
     const char* project = "wr_project_to_texture(n, dp_dx, dp_dy, {}, {}, v)";
     if (at.layer.footprint || l.curved)
-        text += fmt::format(
-            "        vec2 pixels = {};\n",
-            fmt::format(fmt::runtime(project), "wr_v2((real)(1), (real)(0))", "wr_v2((real)(0), (real)(1))"));
+        text += fmt::format("        wr_vec2 pixels = {};\n",
+                            fmt::format(fmt::runtime(project), "wr_v2((wr_real)(1), (wr_real)(0))",
+                                        "wr_v2((wr_real)(0), (wr_real)(1))"));
     if (at.layer.footprint) text += "        reach *= wr_parallax_weight(reach * sqrt(wr_dot(pixels, pixels)));\n";
     text += "        active = active & (reach > 0);\n        if (wr_any(active)) {\n";
-    text += fmt::format("        real lod = {};\n", at.lod("c.dx", "c.dy"));
+    text += fmt::format("        wr_real lod = {};\n", at.lod("c.dx", "c.dy"));
     if (march)
         text += fmt::format(
-            "        vec2 range = wr_scale({0}, reach);\n"
-            "        real step = wr_parallax_step(t, range, lod, {1});\n"
-            "        real h = {2}(t, c.st, range, {3}, lod, step, {1}, {4}, active);\n",
+            "        wr_vec2 range = wr_scale({0}, reach);\n"
+            "        wr_real step = wr_parallax_step(t, range, lod, {1});\n"
+            "        wr_real h = {2}(t, c.st, range, {3}, lod, step, {1}, {4}, active);\n",
             fmt::format(fmt::runtime(project), "c.dx", "c.dy"), l.steps, name, literal(l.level), l.refine);
     else
-        text += fmt::format("        real h = wr_clamp({}(t, c.st, lod));\n", name);
-    text += fmt::format("        real nearer = active ? reach * (h - {}) : (real)(0);\n", literal(l.level));
+        text += fmt::format("        wr_real h = wr_clamp({}(t, c.st, lod));\n", name);
+    text += fmt::format("        wr_real nearer = active ? reach * (h - {}) : (wr_real)(0);\n", literal(l.level));
     if (uv)
         text += fmt::format("        uv.st = wr_add(uv.st, wr_scale({}, nearer));\n",
                             fmt::format(fmt::runtime(project), "uv.dx", "uv.dy"));
     text += parallel ? "        p = wr_fma(v, nearer, p);\n"
-                     : "        real k = 1 - nearer / (active ? distance : (real)(1));\n"
+                     : "        wr_real k = 1 - nearer / (active ? distance : (wr_real)(1));\n"
                        "        p = wr_scale(p, k);\n";
     if (l.curved)
         text += turn(at, uv);
@@ -125,12 +125,12 @@ MovedPoints moved_points(const Emitter& emitter, const std::string& indent) {
         const auto* l = std::get_if<ParallaxLayer>(&layer->bump);
         if (!l) continue;
         moved.by_normal |= own_normal && l->mode == ParallaxMode::march;
-        const std::string depth = fmt::format("(real)(WR_BIN_BOX_SLACK * {})", literal(layer->scale));
+        const std::string depth = fmt::format("(wr_real)(WR_BIN_BOX_SLACK * {})", literal(layer->scale));
         const auto add = [&](const char* way, double share, const char* distance) {
             if (share > 0)
                 moved.text += fmt::format(
                     "{}{} += {} * {};\n", indent, way, literal(share),
-                    reach_text(emitter, *l, own_normal ? "fabs(wr_dot(n, v))" : "(real)(0)", depth, distance));
+                    reach_text(emitter, *l, own_normal ? "fabs(wr_dot(n, v))" : "(wr_real)(0)", depth, distance));
         };
         add("nearer", 1 - l->level, "(distance - nearer)");
         add("farther", l->level, "(distance + farther)");

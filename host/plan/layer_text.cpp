@@ -30,12 +30,12 @@ std::string LayerText::strength() const { return literal(layer.blend == Blend::s
 const char* LayerText::exactly() const { return emitter.precision(layer) == Precision::exact ? "_exact" : ""; }
 
 std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
-    return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(real)(0)";
+    return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(wr_real)(0)";
 }
 
 std::string LayerText::located(const TextureUse& use, TexelKind kind, const UvMapping& uv) {
     std::string text = emit_texcoord(emitter, uv, use.wrap, who, section);
-    if (uv.source == UvSource::aov) text += "        m = uv_valid ? m : (real)(0);\n";
+    if (uv.source == UvSource::aov) text += "        m = uv_valid ? m : (wr_real)(0);\n";
     return text +
            fmt::format("        wr_texture t = wr_texture_at(texels, textures, {});\n", emitter.texture(use, kind));
 }
@@ -55,7 +55,7 @@ std::string LayerText::slopes(const std::string& function, const std::string& ar
     section.writes.insert("g");
     section.operations += *exactly() ? kExactSlopes : kSlopes;
     return fmt::format(
-        "        vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
+        "        wr_vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
         "        g = wr_fma(bump, m * {}, g);\n",
         function, exactly(), arguments, strength());
 }

@@ -19,7 +19,7 @@ struct LayerText {
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
     /// Declares coordinates `c`, texture `t` and its sample, for a source that samples one texture over a UV mapping.
-    std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "vec2 slope");
+    std::string textured(const TextureUse& use, const UvMapping& uv, const char* declared = "wr_vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind, const UvMapping& uv);
     /// Adds the surface gradient of a height, of the kernel function of that name and its arguments after dp_dx, dp_dy.

@@ -44,7 +44,7 @@ Projection projection_of(const TriplanarLayer& l) {
 /// Component k of the rows times the vector called `name`, plus `add`.
 std::string row_times(const Projection& to, std::size_t k, const std::string& name, const std::string& add) {
     if (to.along_axes)
-        return fmt::format("fma({}.{}, (real)({}), (real)({}))", name, "xyz"[k], literal(to.rows[k][k]), add);
+        return fmt::format("fma({}.{}, (wr_real)({}), (wr_real)({}))", name, "xyz"[k], literal(to.rows[k][k]), add);
     return fmt::format("wr_dot({}, {}) + {}", name, literal(to.rows[k]), add);
 }
 
@@ -72,7 +72,7 @@ public:
         std::string text = coordinates() + weights();
         for (std::size_t k = 0; k < 3; ++k) {
             text += fmt::format(
-                "        vec2 {1} = wr_v2((real)(0), (real)(0));\n"
+                "        wr_vec2 {1} = wr_v2((wr_real)(0), (wr_real)(0));\n"
                 "        if (wr_any(active & ({0} > 0))) {{\n",
                 kPlanes[k].weight, kPlanes[k].slope);
             if (const auto& own = l_.planes[k])
@@ -96,15 +96,15 @@ private:
             return parts;
         };
         return fmt::format(
-            "        vec3 q = wr_v3({});\n"
-            "        vec3 qx = wr_v3({});\n"
-            "        vec3 qy = wr_v3({});\n",
+            "        wr_vec3 q = wr_v3({});\n"
+            "        wr_vec3 qx = wr_v3({});\n"
+            "        wr_vec3 qy = wr_v3({});\n",
             all("p", true), all("dp_dx", false), all("dp_dy", false));
     }
 
     std::string weights() const {
         if (l_.transform == Placement{})
-            return fmt::format("        vec3 w = wr_triplanar_weights(n, {});\n", literal(l_.sharpness));
+            return fmt::format("        wr_vec3 w = wr_triplanar_weights(n, {});\n", literal(l_.sharpness));
         // The normal in object space: columns of the inverse are rows of the inverse transposed.
         const auto axes = object_axes(l_.transform);
         std::string parts;
@@ -113,7 +113,7 @@ private:
                               axes[k][2] * l_.transform.scale[k]};
             parts += (k ? ", " : "") + fmt::format("wr_dot(n, {})", literal(column));
         }
-        return fmt::format("        vec3 w = wr_triplanar_weights(wr_normalize(wr_v3({})), {});\n", parts,
+        return fmt::format("        wr_vec3 w = wr_triplanar_weights(wr_normalize(wr_v3({})), {});\n", parts,
                            literal(l_.sharpness));
     }
 
@@ -125,7 +125,7 @@ private:
         std::string text = fmt::format(
             "            wr_texture t = wr_texture_at(texels, textures, {});\n"
             "            {} = {};\n",
-            at_.emitter.texture(use, texel_kind(use)), vector ? "vec3 v" : plane.slope,
+            at_.emitter.texture(use, texel_kind(use)), vector ? "wr_vec3 v" : plane.slope,
             sample_text(use, pair_of("q", plane, upper ? "-" : ""),
                         at_.lod(pair_of("qx", plane), pair_of("qy", plane))));
         if (vector) {
@@ -163,10 +163,10 @@ private:
             for (std::size_t j = 0; j < 3; ++j) space.axes[k][j] = to_.rows[from[k]][j] * l_.tile;
             space.offset[k] = to_.offset[from[k]] * l_.tile;
         }
-        space.point = fmt::format("wr_v3(wr_dot(p, {}), wr_dot(p, {}), (real)(0))", literal(space.axes[0]),
+        space.point = fmt::format("wr_v3(wr_dot(p, {}), wr_dot(p, {}), (wr_real)(0))", literal(space.axes[0]),
                                   literal(space.axes[1]));
         const auto length = [&](const char* q) {
-            return fmt::format("wr_v3({0}.{1}, {0}.{2}, (real)(0))", q, "xyz"[plane.s], "xyz"[plane.t]);
+            return fmt::format("wr_v3({0}.{1}, {0}.{2}, (wr_real)(0))", q, "xyz"[plane.s], "xyz"[plane.t]);
         };
         space.footprint = fmt::format("{} * wr_footprint_size({}, {})", literal(l_.tile), length("qx"), length("qy"));
         space.active = fmt::format("active & ({} > 0)", plane.weight);
@@ -189,7 +189,7 @@ private:
         for (std::size_t j = 0; j < 3; ++j)
             parts += (j ? ", " : "") + (to_.along_axes ? fmt::format("slopes.{} * {}", "xyz"[j], literal(columns[j][j]))
                                                        : fmt::format("wr_dot(slopes, {})", literal(columns[j])));
-        return "        vec3 slopes = wr_triplanar_gradient(w, slope_x, slope_y, slope_z);\n" +
+        return "        wr_vec3 slopes = wr_triplanar_gradient(w, slope_x, slope_y, slope_z);\n" +
                at_.volume(fmt::format("wr_v3({})", parts));
     }
 

@@ -14,11 +14,12 @@ std::string linear(const std::string& v, const std::array<double, 3>& factors, c
     std::string text = rest;
     for (std::size_t k = 0; k < 3; ++k)
         if (factors[k] != 0) {
-            const std::string part = fmt::format("{}.{}", v, "xyz"[k]), factor = "(real)(" + literal(factors[k]) + ")";
+            const std::string part = fmt::format("{}.{}", v, "xyz"[k]),
+                              factor = "(wr_real)(" + literal(factors[k]) + ")";
             text = text.empty() ? fmt::format("{} * {}", part, factor)
                                 : fmt::format("fma({}, {}, {})", part, factor, text);
         }
-    return text.empty() ? "(real)(0)" : text;
+    return text.empty() ? "(wr_real)(0)" : text;
 }
 
 /// matrix v + rest; columns instead of rows when `transposed`.
@@ -52,8 +53,8 @@ std::string emit(LayerText& at, const VolumeLayer& l) {
     at.section.operations += vectors ? kVector : smooth ? kSmooth : kLinear;
     std::string text = fmt::format(
         "        wr_volume v = wr_volume_at(texels, textures, {});\n"
-        "        vec3 start = wr_v3(origins + {});  // the eye, in the grid's index space\n"
-        "        vec3 q = {};\n",
+        "        wr_vec3 start = wr_v3(origins + {});  // the eye, in the grid's index space\n"
+        "        wr_vec3 q = {};\n",
         at.emitter.volume(l, smooth ? TexelKind::volume_smooth : TexelKind::volume), 4 * origin,
         transformed(m, "p", false, "start"));
     if (vectors) return text + at.volume("wr_volume_vector(v, q)");

@@ -15,23 +15,23 @@ namespace wrinkle {
 
 const std::vector<Value>& values() {
     static const std::vector<Value> all{
-        {"valid", "mask", {""}},
-        {"marked", "real", {""}},
-        {"p", "vec3", {".x", ".y", ".z"}},
-        {"p_low", "vec3", {".x", ".y", ".z"}},
-        {"n", "vec3", {".x", ".y", ".z"}},
-        {"base", "vec3", {".x", ".y", ".z"}},
-        {"dp_dx", "vec3", {".x", ".y", ".z"}},
-        {"dp_dy", "vec3", {".x", ".y", ".z"}},
-        {"dn_dx", "vec3", {".x", ".y", ".z"}},
-        {"dn_dy", "vec3", {".x", ".y", ".z"}},
+        {"valid", "wr_mask", {""}},
+        {"marked", "wr_real", {""}},
+        {"p", "wr_vec3", {".x", ".y", ".z"}},
+        {"p_low", "wr_vec3", {".x", ".y", ".z"}},
+        {"n", "wr_vec3", {".x", ".y", ".z"}},
+        {"base", "wr_vec3", {".x", ".y", ".z"}},
+        {"dp_dx", "wr_vec3", {".x", ".y", ".z"}},
+        {"dp_dy", "wr_vec3", {".x", ".y", ".z"}},
+        {"dn_dx", "wr_vec3", {".x", ".y", ".z"}},
+        {"dn_dy", "wr_vec3", {".x", ".y", ".z"}},
         {"uv", "wr_texcoord", {".st.x", ".st.y", ".dx.x", ".dx.y", ".dy.x", ".dy.y"}},
-        {"uv_valid", "mask", {""}},
-        {"vertex_tb", "wr_frame_tb", {".t.x", ".t.y", ".t.z", ".b.x", ".b.y", ".b.z"}},
-        {"vertex_tb_valid", "mask", {""}},
-        {"g", "vec3", {".x", ".y", ".z"}},
-        {"dh_dp", "vec3", {".x", ".y", ".z"}},
-        {"lit", "vec3", {".x", ".y", ".z"}},
+        {"uv_valid", "wr_mask", {""}},
+        {"vertex_tb", "wr_tangents", {".t.x", ".t.y", ".t.z", ".b.x", ".b.y", ".b.z"}},
+        {"vertex_tb_valid", "wr_mask", {""}},
+        {"g", "wr_vec3", {".x", ".y", ".z"}},
+        {"dh_dp", "wr_vec3", {".x", ".y", ".z"}},
+        {"lit", "wr_vec3", {".x", ".y", ".z"}},
     };
     return all;
 }
@@ -124,7 +124,8 @@ std::string literal(double value) {
 }
 
 std::string literal(const Vec3& v) {
-    return fmt::format("wr_v3((real)({}), (real)({}), (real)({}))", literal(v[0]), literal(v[1]), literal(v[2]));
+    return fmt::format("wr_v3((wr_real)({}), (wr_real)({}), (wr_real)({}))", literal(v[0]), literal(v[1]),
+                       literal(v[2]));
 }
 
 std::string identifier(const std::string& plane) {

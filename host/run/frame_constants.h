@@ -13,7 +13,7 @@ namespace wrinkle {
 
 /// Everything kernels read that depends on the camera, in double; positions relative to the eye.
 struct FrameConstants {
-    wr_frame frame{};
+    wr_camera frame{};
     std::vector<double> origins;  ///< 4 numbers an origin
     std::vector<wr_decal> decals;
     std::vector<wr_projector> projectors;  ///< of all tables, in the order of evaluation
@@ -22,10 +22,10 @@ struct FrameConstants {
 };
 
 /// The frame as kernels read it.
-wr_frame camera_constants(const Camera& camera, Size size);
+wr_camera camera_constants(const Camera& camera, Size size);
 
 /// Sets the ..._low of a frame that is otherwise complete.
-void split_constants(wr_frame& frame);
+void split_constants(wr_camera& frame);
 
 /// A decal as kernels read it; `scale` is signed, `texture` its number in the table.
 wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye);

@@ -9,8 +9,8 @@ namespace {
 TEST(Decal, SurfaceGradient) {
     check(cases::decal_gradient_cases(),
           "global const wr_decal *decal = (global const wr_decal *)records;\n"
-          "vec3 g = wr_decal_gradient(decal, slope, weight);\n"
-          "vec3 s = wr_surface_gradient_from_volume(unit(n), g);",
+          "wr_vec3 g = wr_decal_gradient(decal, slope, weight);\n"
+          "wr_vec3 s = wr_surface_gradient_from_volume(unit(n), g);",
           {{"sg", xyz("s"), ErrorMeasure::relative, 4e-7, 4e-7, 1e-9}});
 }
 
