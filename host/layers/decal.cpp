@@ -94,7 +94,7 @@ std::string emit(LayerText& at) {
     return fmt::format(
         R"(        for (uint i = {}; i < {}; ++i) {{
             global const wr_projector *decal = decals + i;
-            wr_projected in = wr_project(decal, p);
+            wr_projected in = wr_project_box(decal, p);
 {}            wr_real weight = m * wr_projector_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
             wr_real lod = {};
