@@ -70,7 +70,7 @@ struct Resident {
         std::vector<cl::Buffer> planes;
         for (const std::string& name : impl.plan.tiles->inputs) planes.push_back(in.planes().at(name));
         impl.bins
-            .enqueue(impl.frame, planes, {.first = 0, .count = impl.size.height}, impl.size.width, 0,
+            .enqueue(impl.frame, impl.numbers, planes, {.first = 0, .count = impl.size.height}, impl.size.width, 0,
                      impl.size.width * impl.size.height, {})
             .wait();
     }

@@ -33,13 +33,9 @@ double scale(const Layer& layer) { return layer.scale; }
 const ParallaxLayer& parallax_of(const Layer& layer) { return std::get<ParallaxLayer>(layer.bump); }
 
 bool on_uv_plane(const Layer& layer) {
-    const auto reads = [](const auto& bump) {
-        if constexpr (requires { bump.uv; })
-            return bump.uv.source == UvSource::aov;
-        else
-            return false;
-    };
-    return std::visit(reads, layer.bump) || (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
+    const UvMapping* uv = find_uv(layer);
+    return (uv && uv->source == UvSource::aov) ||
+           (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
 }
 
 /// Whether a layer after this one uses the UV plane, so that it has to move too.

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "wrinkle/error.h"
-
 namespace wrinkle {
 
 TexelKind texel_kind(const TextureUse& use) {
@@ -71,13 +69,15 @@ std::string LayerText::volume(const std::string& gradient) {
     return fmt::format("        {0} = wr_fma({1}, m * {2}, {0});\n", sum, gradient, strength());
 }
 
-const UvMapping& own_uv(const Layer& layer) {
+const UvMapping* find_uv(const Layer& layer) {
     return std::visit(
-        [&](const auto& bump) -> const UvMapping& {
-            if constexpr (requires { bump.uv; })
-                return bump.uv;
+        [](const auto& bump) -> const UvMapping* {
+            if constexpr (requires { bump.uv.has_value(); })
+                return bump.uv ? &*bump.uv : nullptr;
+            else if constexpr (requires { bump.uv; })
+                return &bump.uv;
             else
-                throw Error(layer_label(layer) + ": its kind has no uv");
+                return nullptr;
         },
         layer.bump);
 }

@@ -36,8 +36,10 @@ struct LayerText {
     std::string volume(const std::string& gradient);
 };
 
-/// The mapping of a layer whose kind has one.
-const UvMapping& own_uv(const Layer& layer);
+/// The mapping of a layer; null where it has none.
+const UvMapping* find_uv(const Layer& layer);
+/// The mapping of a layer that has one.
+inline const UvMapping& own_uv(const Layer& layer) { return *find_uv(layer); }
 
 /// How the texels of `use` are stored.
 TexelKind texel_kind(const TextureUse& use);

@@ -9,6 +9,18 @@ namespace wrinkle {
 
 namespace {
 
+/// The user's own functions, told apart by their files' names and lines.
+std::string user_text(const Emitter& emitter) {
+    std::string text;
+    for (const auto& [function, parameters] : emitter.user_parameters) text += parameters + "\n";
+    for (const auto& [file, content] : emitter.user_files) {
+        std::string name;
+        for (const char c : file) name += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+        text += fmt::format("#line 1 \"{}\"\n{}\n#line 1 \"evaluate.cl\"\n", name, content);
+    }
+    return text;
+}
+
 /// The layers between two resolves.
 struct Stage {
     std::vector<Section> layers;
@@ -190,7 +202,7 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     // Few streams of stores: the write-combining buffers hold them all, so even half lines may go past the cache.
     constexpr std::size_t kFewOutputs = 3;
     plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
-                  ("#include \"wrinkle.clh\"\n\n" + emitter.helpers + bins);
+                  ("#include \"wrinkle.clh\"\n\n" + user_text(emitter) + emitter.helpers + bins);
 
     // Not where kernels add to planes, since blocks may share pixels, nor where neighbours lie a lane further.
     plan.blocks = plan.projectors > 0 && !plan.neighbours && !options.split;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "budget/choose_precision.h"
+#include "budget/error_sample.h"
 #include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "tests/io/files.h"
@@ -224,7 +225,7 @@ TEST(ErrorSample, MeasuresAnglesOfASeededSample) {
         const GBufferReader reader(scene.gbuffer.file);
         PhaseClock clock;
         FrameRun run(pass.impl(), reader, clock);
-        run.measure(errors, frame.frame.camera);
+        run.check_bands(errors, frame.frame.camera);
         run.run();
         return errors.stats();
     };
