@@ -17,7 +17,7 @@ inline void put(double (&to)[3], V v) {
     to[0] = static_cast<double>(v.x), to[1] = static_cast<double>(v.y), to[2] = static_cast<double>(v.z);
 }
 
-/// Listing 15: slopes d along the projector's axes X and Y, projected onto n.
+/// Listing 15: the gradient of slopes d along the projector's axes X and Y, projected onto the surface of normal n.
 inline Cases decal_gradient_cases() {
     Cases c{.name = "listing15_decal"};
     const GoldenTable table = reference::golden("listing15_decal");
@@ -37,7 +37,7 @@ inline Cases decal_gradient_cases() {
     return c;
 }
 
-/// Boxes of any orientation and size around points inside and out, with every kind of fade.
+/// Points in and around boxes of any orientation and size, with every kind of fade.
 inline Cases decal_box_cases() {
     Cases c{.name = "decal boxes"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -64,7 +64,7 @@ inline Cases decal_box_cases() {
         const V at = reference::decal_coordinates(box, p - center), step = reference::decal_coordinates(box, dp);
         const real cosine = dot(normalize(n), box.z);
         const bool on_edge = std::abs(largest(at) - 1) < 1e-4L || (a1 == a0 && std::abs(cosine - a0) < 1e-4L);
-        if (on_edge) {  // either answer is right
+        if (on_edge) {  // rounding decides on which side: either answer is right
             c.data.records.resize(c.data.records.size() - c.data.records_per_row);
             continue;
         }

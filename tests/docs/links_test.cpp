@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = WRINKLE_SOURCE_DIR;
 
-/// Lines that are text: code blocks, fenced or indented, become empty, so that line numbers stay what they are.
+/// The lines of a page without its code. Lines of code blocks become empty, so that line numbers stay right.
 std::vector<std::string> text_lines(const fs::path& file) {
     static const std::regex code_span("`[^`]*`");
     std::vector<std::string> lines;
@@ -58,7 +58,7 @@ std::set<std::string> anchors_of(const fs::path& file) {
     return anchors;
 }
 
-/// Pages of the project itself: not what was built, evaluated or lent.
+/// The pages of the repository, without those in folders that are not part of it.
 std::vector<fs::path> pages() {
     const std::set<std::string> foreign{"build", "out", "shared", ".git"};
     std::vector<fs::path> found;
@@ -71,7 +71,7 @@ std::vector<fs::path> pages() {
     return found;
 }
 
-/// What is wrong with a link, or nothing.
+/// What is wrong with a link; empty when it leads somewhere.
 std::string fault(const fs::path& page, const std::string& target) {
     const std::size_t hash = target.find('#');
     const std::string path = target.substr(0, hash);
