@@ -97,8 +97,8 @@ struct Beside {
 
     explicit Beside(Bands given) : bands(std::move(given)) {
         for (std::uint32_t band = 0; band < bands.count(); ++band) in.push_back(bands.load(band));
-        for (std::uint32_t band = 0; band < bands.count(); ++band)
-            run(band);  // the first time builds kernels and touches memory
+        // The first time builds kernels and touches memory.
+        for (std::uint32_t band = 0; band < bands.count(); ++band) run(band);
         for (std::uint32_t band = 0; band < bands.count(); ++band)
             seconds_a_band += seconds_of([&] { run(band); }) / bands.count();
     }

@@ -130,8 +130,8 @@ void run(const RunArguments& arguments) {
     check_frame_pattern(files, "--frames", !options.frames.empty());
     check_frames_exist(files, options.frames);
     if (arguments.threads > 0) {
-        setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(),
-               1);  // PoCL reads it when it starts
+        // PoCL reads it when it starts.
+        setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);
         set_image_threads(arguments.threads);
     }
     options.progress = progress_bar(!arguments.quiet && !arguments.json);

@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
         "  wrinkle tune data/scenes/*.toml             what max_error in a scene chooses by, measured here\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
-    app.require_subcommand(0,
-                           1);  // 0, so that CLI11 complains of unknown arguments first; a missing one is refused below
+    // 0, so that CLI11 complains of unknown arguments first; a missing one is refused below.
+    app.require_subcommand(0, 1);
     app.failure_message(CLI::FailureMessage::help);
     wrinkle::cli::add_run(app);
     wrinkle::cli::add_info(app);

@@ -24,8 +24,8 @@ inline Cases blend_cases(const std::string& column, V (*blend)(V, V)) {
         c.add("blend, seed " + std::to_string(seed), true);
         c.in("a", a), c.in("b", b), c.out("normal", want);
     }
-    for (const V a :
-         {V{0, 0, 1}, V{0, 0, -1}, V{}, V{1, 0, 0}, V{-1, 0, 0}})  // blends cancel: only a finite answer is asked for
+    // Blends cancel: only a finite answer is asked for.
+    for (const V a : {V{0, 0, 1}, V{0, 0, -1}, V{}, V{1, 0, 0}, V{-1, 0, 0}})
         for (const V b : {V{0, 0, 1}, V{0, 0, -1}, V{}, V{1, 0, 0}}) {
             c.add("blend of an extreme", true);
             c.in("a", a), c.in("b", b), c.out("normal", V{std::numeric_limits<real>::quiet_NaN(), 0, 0});

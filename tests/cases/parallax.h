@@ -122,8 +122,8 @@ inline Cases parallax_normal_cases() {
         const V2 pixels{random.uniform(-20, 20), random.uniform(-20, 20)};
         c.add("parallax normal, seed " + std::to_string(seed), hard);
         const V moved = reference::parallax_normal(normalize(n), a, b, pixels, n);
-        const V view = Random::rounded(normalize(moved) * 0.9L +
-                                       random.unit());  // never so close to a right angle that rounding decides
+        // Never so close to a right angle that rounding decides.
+        const V view = Random::rounded(normalize(moved) * 0.9L + random.unit());
         c.in("n", n), c.in("dn_dx", a), c.in("dn_dy", b), c.in("pixels", pixels), c.in("view", view);
         const V want = reference::parallax_normal(normalize(n), a, b, pixels, view);
         const bool clear = std::abs(dot(normalize(view), normalize(n + a * pixels.x + b * pixels.y))) > 1e-5L;

@@ -52,8 +52,8 @@ inline wr_frame frame_of(const Row& row) {
     wr_frame f{};
     put(f.c0, row.c(0)), put(f.c1, row.c(1)), put(f.c2, row.c(2)), put(f.c3, row.c(3));
     for (std::size_t i = 0; i < 4; ++i) f.w[i] = static_cast<double>(row.m[3][i]);
-    const real unit =
-        1 / length(row.c(0) * row.x + row.c(1) * row.y + row.c(3));  // the length of a ray's direction does not matter
+    // The length of a ray's direction does not matter.
+    const real unit = 1 / length(row.c(0) * row.x + row.c(1) * row.y + row.c(3));
     const V d0 = row.c(3) * unit, dx = row.c(0) * unit, dy = row.c(1) * unit;
     put(f.d0, d0), put(f.dx, dx), put(f.dy, dy);
     put(f.dx_cross_d0, cross(dx, d0)), put(f.dx_cross_dy, cross(dx, dy));

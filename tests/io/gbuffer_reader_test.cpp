@@ -137,8 +137,8 @@ TEST(GBufferReader, ChannelsOverSeveralParts) {
 TEST(GBufferReader, PixelsOutsideTheDataWindowAreBackground) {
     TempFolder folder;
     auto spec = make_spec(10, 8, {"N.X", "N.Y", "N.Z"});
-    spec.x = 105,
-    spec.y = 203;  // the frame begins at (100, 200): data begins 5 right and 3 below, and 3 columns are outside of it
+    // The frame begins at (100, 200): data begins 5 right and 3 below, and 3 columns are outside of it.
+    spec.x = 105, spec.y = 203;
     spec.full_x = 100, spec.full_y = 200, spec.full_width = 12, spec.full_height = 20;
     write_image(folder / "crop.exr", {{spec}});
     const GBufferReader reader(folder / "crop.exr");

@@ -57,9 +57,8 @@ TEST(TextureFile, SlopesArePerUnitOfTextureWithTUp) {
 
 TEST(TextureFile, BumpslopesAreKnownByTheirChannels) {
     TempFolder folder;
-    const auto ramp = [](int c, int, int) {
-        return c == 1 ? 0.25f : c == 2 ? 0.5f : 7.0f;
-    };  // slopes along a t that points down
+    // Slopes along a t that points down.
+    const auto ramp = [](int c, int, int) { return c == 1 ? 0.25f : c == 2 ? 0.5f : 7.0f; };
     auto spec = make_spec(8, 4, {"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"});
     write_image(folder / "b.exr", {{spec, ramp}});
     const Image texels = load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture);
@@ -68,9 +67,8 @@ TEST(TextureFile, BumpslopesAreKnownByTheirChannels) {
     spec.attribute("uvslopes_scale", 16.0f);
     write_image(folder / "b.exr", {{spec, ramp}});
     EXPECT_FLOAT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel).at(3, 1, 1), -0.5f * 16);
-    const auto of_normals = [&](int c, int x, int y) {
-        return c == 0 ? -1.0f : ramp(c, x, y);
-    };  // made from normals: heights of -1, and t points up
+    // Made from normals: heights of -1, and t points up.
+    const auto of_normals = [&](int c, int x, int y) { return c == 0 ? -1.0f : ramp(c, x, y); };
     write_image(folder / "b.exr", {{spec, of_normals}});
     EXPECT_FLOAT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel).at(3, 1, 1), 0.5f * 16);
     // A file that maketx itself wrote: its slopes must be those of its heights.

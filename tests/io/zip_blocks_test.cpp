@@ -42,8 +42,8 @@ std::vector<float> library_reads(const std::filesystem::path& file, int part, co
 /// Reads some channels interleaved, and expects the same bits as OpenImageIO's.
 void expect_same(const std::filesystem::path& file, int part, const std::vector<int>& channels, int begin, int end) {
     ZipBlocks blocks(file);
-    const std::size_t stride =
-        channels.size() + 1;  // one more than there are channels: the last number of each pixel must stay as it is
+    // One more than there are channels: the last number of each pixel must stay as it is.
+    const std::size_t stride = channels.size() + 1;
     std::vector<float> read(stride * width * static_cast<std::size_t>(end - begin), -7.0F);
     std::vector<BlockChannel> wanted;
     for (std::size_t i = 0; i < channels.size(); ++i)
@@ -132,10 +132,10 @@ TEST(ZipBlocks, NoticeDamage) {
     }
     std::mt19937 random(9);
     int noticed = 0;
-    const auto blocks = bytes.find("screenWindowWidth") +
-                        64;  // behind the last attribute of the header, and the table of where blocks are
-    for (int trial = 0; trial < 400;
-         ++trial) {  // damage may go unnoticed where no checksum covers it, but must not crash
+    // Behind the last attribute of the header, and the table of where blocks are.
+    const auto blocks = bytes.find("screenWindowWidth") + 64;
+    // Damage may go unnoticed where no checksum covers it, but must not crash.
+    for (int trial = 0; trial < 400; ++trial) {
         std::string changed = bytes;
         changed[blocks + random() % (bytes.size() - blocks)] ^= static_cast<char>(1 + random() % 255);
         std::ofstream(damaged, std::ios::binary) << changed;

@@ -1,4 +1,5 @@
-// bins/bin_lists.clh: the lists of a super block and of its children, when there is room for them and when there is not.
+// bins/bin_lists.clh: the lists of a super block and of its children, when there is room for them and when there is
+// not.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -106,11 +106,12 @@ std::vector<unsigned> touches(const std::vector<float>& decals, const std::vecto
     return out;
 }
 
-/// Between world space and the axes of bounds (right, down, forward) of a camera that looks along -z. It is its own inverse.
+/// Between world space and the axes of bounds (right, down, forward) of a camera that looks along -z. It is its own
+/// inverse.
 V turned(V p) { return {p.x, -p.y, -p.z}; }
 
-/// Random decals, and boxes near them. No box with a point of the decal may be missed, and most of the boxes that are said
-/// to touch must have such a point.
+/// Random decals, and boxes near them. No box with a point of the decal may be missed, and most of the boxes that are
+/// said to touch must have such a point.
 TEST(BinTests, ADecalIsNeverMissedAndSeldomFoundForNothing) {
     constexpr std::size_t count = 300;
     std::vector<Projector> rows(count);

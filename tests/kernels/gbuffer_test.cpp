@@ -43,8 +43,8 @@ TEST(GBuffer, ValidityIsDecidedFromBits) {
         }
 }
 
-/// The pixels of a work-item have the right coordinates in rows of any width, also narrower than the lanes, and in bands that
-/// do not start at row 0.
+/// The pixels of a work-item have the right coordinates in rows of any width, also narrower than the lanes, and in
+/// bands that do not start at row 0.
 TEST(GBuffer, PixelsOfAWorkItem) {
     for (const int width : {1, 2, 3, 7, 16, 31, 97}) {
         const std::size_t pixels = static_cast<std::size_t>(width) * 11;
@@ -95,7 +95,8 @@ TEST(GBuffer, NormalsFaceTheViewer) {
            {"away", {"truth(away)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
-/// With an eye 1e6 metres away, a position relative to the eye is exact to an ulp of itself, not of the eye's coordinates.
+/// With an eye 1e6 metres away, a position relative to the eye is exact to an ulp of itself, not of the eye's
+/// coordinates.
 TEST(GBuffer, PositionsRelativeToTheEye) {
     cases::Cases c{.name = "positions"};
     wr_frame frame{};

@@ -39,8 +39,8 @@ TEST(ObjectNormal, RepeatsOrClamps) {
            {"across", {"wr_texels_across(repeat)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7, 1e-7}});
 }
 
-/// For turned, stretched or mirrored objects a plan computes rows, of cofactors, that turn a normal. The result must be the
-/// direction of the cross product of two tangents that the matrix itself has moved.
+/// For turned, stretched or mirrored objects a plan computes rows, of cofactors, that turn a normal. The result must be
+/// the direction of the cross product of two tangents that the matrix itself has moved.
 TEST(ObjectNormal, RowsTurnAVector) {
     cases::Cases c{.name = "turned normals"};
     for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -9,7 +9,8 @@
 namespace wrinkle::test {
 namespace {
 
-/// In frames of any size that blocks fit into, every pixel is evaluated, with the right coordinates and place in memory.
+/// In frames of any size that blocks fit into, every pixel is evaluated, with the right coordinates and place in
+/// memory.
 TEST(PixelBlock, BlocksCoverTheFrame) {
     for (const int lanes : {8, 16})
         for (const int width : {4, 5, 7, 16, 31})

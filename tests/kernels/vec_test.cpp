@@ -30,7 +30,8 @@ TEST(Vec, CompensatedFormsKeepTheirDigitsWhereTermsCancel) {
           {{"dop", {"wr_dop(a.x, b.y, a.y, b.x)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7},
            {"cross", xyz("axb"), ErrorMeasure::relative, 1.2e-7, 1.2e-7},
            {"dot2", {"wr_dot2(a, o)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7}});
-    for (std::size_t row = 0; row < c.size(); ++row) {  // compensation doubles the digits; where more than that cancel, an allowance is needed
+    // Compensation doubles the digits. Where more of them cancel than that, a larger error is allowed.
+    for (std::size_t row = 0; row < c.size(); ++row) {
         const real terms = length(c.vec(row, "n")) * length(c.vec(row, "a")) * length(c.vec(row, "b"));
         c.allowance[row] = std::max(real{1}, 1e-7L * terms / std::abs(c.want["triple"][row].x));
     }

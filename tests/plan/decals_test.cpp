@@ -26,9 +26,8 @@ TEST(PlanOfDecals, GroupsDecalsThatShareMaskAndSampling) {
                                    "resolve", "write"}));
     EXPECT_EQ(plan.decals.size(), 4u);
     EXPECT_EQ(plan.decal_scales, (std::vector<double>{1, -2, 1, 1}));
-    EXPECT_EQ(
-        plan.decal_textures,
-        (std::vector<std::size_t>{0, 1, 0, 2}));  // a file that is used both as heights and as slopes is two textures
+    // A file that is used both as heights and as slopes is two textures.
+    EXPECT_EQ(plan.decal_textures, (std::vector<std::size_t>{0, 1, 0, 2}));
     EXPECT_EQ(plan.textures.size(), 3u);
     EXPECT_TRUE(mentions(plan, "i = 0; i < 2") && mentions(plan, "i = 2; i < 3") && mentions(plan, "i = 3; i < 4"));
 }

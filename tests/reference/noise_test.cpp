@@ -51,8 +51,8 @@ TEST(Noise, GradientIsTheDerivativeOfTheValue) {
         for (std::size_t i = 0; i < table.size(); ++i) {
             const Vec<real> p = table.vec(i, "p");
             const auto value = [&](Vec<real> q) { return noises[k](q).value; };
-            const real bound =
-                k == 1 ? 2e-4L : 1e-7L;  // k == 1: on a face of a cell, where the curvature of the cubic fade jumps
+            // k == 1: on a face of a cell, where the curvature of the cubic fade jumps.
+            const real bound = k == 1 ? 2e-4L : 1e-7L;
             EXPECT_LE(length(noises[k](p).gradient - numeric_gradient(value, p, 1e-4L)), bound)
                 << "noise " << k << ", case " << i;
         }

@@ -17,9 +17,9 @@ struct Surfel {
     Vec<T> normal;
     ScreenDerivative<T> d;
     std::optional<TexCoord<T>> uv;  ///< of the UV plane; nothing when there is no plane or no derivative
-    std::optional<TangentFrame<T>>
-        vertex;                  ///< the renderer's tangents; nothing when there are none, or they are not finite
-    bool vertex_planes = false;  ///< the G-buffer has planes of tangents
+    /// The renderer's tangents; nothing when there are none, or they are not finite.
+    std::optional<TangentFrame<T>> vertex;
+    bool vertex_planes = false;                                              ///< the G-buffer has planes of tangents
     std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of the plane of this name, per pixel
     std::optional<double> object{};                   ///< the object's index, if the frame has a plane of it
     std::function<T(const std::string&)> coverage{};  ///< by the Cryptomatte object of this name

@@ -36,8 +36,8 @@ TEST(BandPipeline, EveryBandPassesEveryStageInOrder) {
 }
 
 TEST(BandPipeline, StagesRunBesideEachOther) {
-    // Writing band 0 waits until band 2 has been read, and reading band 2 waits until band 1 is about to be evaluated:
-    // this only ends when the three stages overlap.
+    // Band 1 is not evaluated before all bands have been read, and band 0 is not written before all have been
+    // evaluated: this ends only if the three stages run at the same time.
     std::atomic<std::uint32_t> read{0}, evaluated{0};
     const auto until = [](const auto& value, std::uint32_t least) {
         for (auto now = value.load(); now < least; now = value.load()) value.wait(now);

@@ -129,8 +129,8 @@ struct TwoNoises {
 TEST(Budget, ChoosesTheCheapestThatTheTableAllows) {
     const TwoNoises made;
     EXPECT_EQ(made.chosen(1), "geometry standard, layers standard");
-    EXPECT_EQ(made.chosen(0.62),
-              "geometry standard, layers standard but exact \"coarse\"");  // an error of 0.1 for 2 ns
+    // An error of 0.1 for 2 ns.
+    EXPECT_EQ(made.chosen(0.62), "geometry standard, layers standard but exact \"coarse\"");
     EXPECT_EQ(made.chosen(0.1105), "geometry exact, layers standard but exact \"fine\", \"coarse\"");
     EXPECT_EQ(made.chosen(0.112), "geometry standard, layers standard but exact \"fine\", \"coarse\"");
     EXPECT_EQ(made.chosen(0.109), "everything in double");
@@ -204,7 +204,7 @@ TEST(ErrorSample, NeedsDoublePrecision) {
     } catch (const Error& error) { expect_mentions(error.what(), {"max_error", "cl_khr_fp64", "--device"}); }
 }
 
-/// A pass that tilts every normal by the same wrong angle: the sample must find it, whichever pixels it has.
+/// A pass whose normals are slightly wrong: the sample must measure by how much, whichever pixels are drawn.
 TEST(ErrorSample, MeasuresAnglesOfASeededSample) {
     const HostFrame frame = small_frame();
     Scene scene, wrong;

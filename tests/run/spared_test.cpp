@@ -46,7 +46,7 @@ TEST(Spared, NormalsThatNothingBendsKeepTheirBits) {
     expect_within("bent twice", normal_error(after, Truth(frame, some)), {3e-6, 1e-5, 3e-5}, "degrees");
 }
 
-/// Stages may need derivatives or not, in any order: the first one only, two in a row, or the first and the third.
+/// Derivatives may be needed by the last stage only, by two stages in a row, or again after a stage that needs none.
 TEST(Spared, EveryStageHasTheDerivativesOfItsOwnSurface) {
     const HostFrame frame = small_frame();
     const Layer tilt = constant_on(1), other = constant_on(3), noise = noise_layer(), resolve = resolve_layer();

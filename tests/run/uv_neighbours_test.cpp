@@ -63,8 +63,8 @@ TEST(UvNeighbours, FollowASurfaceThatCurvesAway) {
         const V p =
             rays.at_depth(double(i % size.width) + 0.5, double(i / size.width) + 0.5, frame.pixels.at("depth")[i]);
         const double cosine = dot(n, normalize(p * -1.0));
-        if (found.at("marked")[i] != 0 || cosine > 0.95 || length(want) < 0.02)
-            continue;  // near the pole longitude is undefined
+        // Near the pole longitude is undefined.
+        if (found.at("marked")[i] != 0 || cosine > 0.95 || length(want) < 0.02) continue;
         const double error = length(vec_at(found, "surface_gradient", i) - want) / length(want);
         (cosine < 0.35 ? rim : inner).push_back(error);
     }

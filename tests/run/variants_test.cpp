@@ -13,8 +13,8 @@ Scene mixed_scene() {
     const auto add = [&](const char* from, std::size_t layer) {
         scene.layers.push_back(data_scene(from).layers.at(layer));
     };
-    Layer depth =
-        data_scene("height_map").layers.at(1);  // a parallax of this height moves the layers after it on the wall
+    // A parallax of this height moves the layers after it on the wall.
+    Layer depth = data_scene("height_map").layers.at(1);
     const auto& stones = std::get<HeightMapLayer>(depth.bump);
     depth.bump = ParallaxLayer{.texture = stones.texture, .uv = stones.uv, .curved = true};
     depth.name = "depth";
