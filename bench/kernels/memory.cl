@@ -1,5 +1,5 @@
-// The machine's ceilings, and resolve, the pass that does least beside moving memory. Stores bypass the cache where they
-// can.
+// The machine's ceilings, and resolve, the pass that does least beside moving memory. Stores bypass the cache where
+// they can.
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 

@@ -1,4 +1,5 @@
-// Noise in several ways: value and analytic gradient, gradient by differences, value alone. Each sums WR_OCTAVES octaves.
+// Noise in several ways: value and analytic gradient, gradient by differences, value alone. Each sums WR_OCTAVES
+// octaves.
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 
@@ -11,8 +12,8 @@ wr_fn vec3 wr_octave(vec3 p, int k)
     return wr_v3(fma(p.x, scale, offset), fma(p.y, scale, offset), fma(p.z, scale, offset));
 }
 
-/// Perlin noise without a table, as FastNoise2 does it: corners are hashed by multiplication, and bits of the hash choose
-/// the direction. The fastest way to values that we know.
+/// Perlin noise without a table, as FastNoise2 does it: corners are hashed by multiplication, and bits of the hash
+/// choose the direction. The fastest way to values that we know.
 wr_fn real wr_hashed_corner(index hash, real x, real y, real z)
 {
     hash *= 0x27d4eb2d;
@@ -40,8 +41,8 @@ wr_fn real wr_hashed_noise(vec3 p)
     return wr_mixed(wr_mixed(a, b, v), wr_mixed(c, d, v), w);
 }
 
-// The volatile vector forces the stack to be aligned, as it is in fused kernels. Without it, LLVM may place values that do
-// not fit into registers across two cache lines, depending on the thread, and the kernel takes up to a fifth longer.
+// The volatile vector forces the stack to be aligned, as it is in fused kernels. Without it, LLVM may place values that
+// do not fit into registers across two cache lines, depending on the thread, and the kernel takes up to a fifth longer.
 #define WR_NOISE_KERNEL(name, octave)                                                                        \
     kernel void name(global const float *restrict in_x, global const float *restrict in_y,                   \
                      global const float *restrict in_z, global WR_SCALAR *restrict out_value,                \

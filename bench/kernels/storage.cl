@@ -1,5 +1,5 @@
-// Resolve from G-buffers that are stored in fewer bytes, to see what that costs in degrees. wr_resolve_only of memory.cl
-// is the same from floats.
+// Resolve from G-buffers that are stored in fewer bytes, to see what that costs in degrees. wr_resolve_only of
+// memory.cl is the same from floats.
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 
