@@ -1,4 +1,4 @@
-// Decals of a kind share a loop in the kernel, and tables of decals share a program.
+// Decals with the same mask and sampling share a loop in the kernel; tables of decals share a program.
 #include <algorithm>
 
 #include "tests/plan/planned.h"
