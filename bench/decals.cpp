@@ -10,9 +10,9 @@
 #include "error.h"
 #include "io/texture_file.h"
 #include "run/pass_impl.h"
-#include "run/scatter.h"
 #include "temporary_folder.h"
 #include "tests/reference/projector.h"
+#include "tools/scatter.h"
 
 namespace wrinkle::bench {
 

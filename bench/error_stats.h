@@ -1,6 +1,6 @@
 #pragma once
 
-#include "run/error_stats.h"
+#include "base/error_stats.h"
 
 namespace wrinkle::bench {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "io/gbuffer_reader.h"
-#include "run/render.h"
+#include "run/open_frame.h"
 
 namespace wrinkle::bench {
 

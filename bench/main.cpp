@@ -16,9 +16,9 @@
 #include "functions.h"
 #include "memory.h"
 #include "report.h"
-#include "run/render.h"
 #include "scenes.h"
 #include "sizes.h"
+#include "tools/render.h"
 #include "volume.h"
 #include "wrinkle/error.h"
 

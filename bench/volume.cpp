@@ -7,8 +7,8 @@
 
 #include "baseline/volume.h"
 #include "device/program.h"
+#include "resources/volume_heap.h"
 #include "run/plane_buffers.h"
-#include "run/volume_heap.h"
 #include "tests/reference/volume.h"
 #include "wrinkle/error.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/problems.h"
+#include "base/names.h"
 
 namespace wrinkle::cli {
 
@@ -16,7 +16,7 @@ CLI::Validator number(const char* wanted, bool (*holds)(double)) {
         [=](std::string& text) -> std::string {
             double value = 0;
             if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && holds(value)) return {};
-            return fmt::format("{} is given; expected {}", scene::quote(text), wanted);
+            return fmt::format("{} is given; expected {}", quote(text), wanted);
         },
         "");
 }
@@ -43,8 +43,8 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
     return CLI::Validator(
         [=](std::string& text) -> std::string {
             if (std::ranges::find(names, text) != names.end()) return {};
-            return fmt::format("{} is given{}; expected one of {}", scene::quote(text),
-                               scene::did_you_mean(text, names), scene::quote_list(names));
+            return fmt::format("{} is given{}; expected one of {}", quote(text), did_you_mean(text, names),
+                               quote_list(names));
         },
         "");
 }

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "cli/commands.h"
-#include "io/atomic_file.h"
 #include "io/image_writer.h"
-#include "run/bake.h"
+#include "tools/bake.h"
 
 namespace wrinkle::cli {
 
@@ -43,7 +43,7 @@ void bake_a_frame(const BakeArguments& arguments) {
     image.complete();
     std::filesystem::path camera_file = arguments.output;
     camera_file.replace_extension(".camera.json");
-    io::AtomicFile json(camera_file);
+    AtomicFile json(camera_file);
     json.write(
         nlohmann::json{{"width", size.width}, {"height", size.height}, {"view", camera.view}, {"proj", camera.proj}}
             .dump(1) +

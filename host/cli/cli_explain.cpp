@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,9 +13,11 @@
 #include "device/kernel_sources.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
+#include "layers/kinds.h"
+#include "resources/volume_heap.h"
+#include "run/bin_report.h"
+#include "run/open_frame.h"
 #include "run/pass_impl.h"
-#include "run/render.h"
-#include "run/volume_heap.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -88,6 +91,16 @@ nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
     return all;
 }
 
+/// Prints the numbers that the kernels read from their buffer, and the index of the first of each.
+void print_numbers(const Plan& plan, const NumberSource& source) {
+    if (!plan.numbers.empty()) fmt::print("\nnumbers of the scene, in the order of the kernels' buffer\n");
+    std::size_t first = 0;
+    for (const PlannedNumbers& planned : plan.numbers) {
+        fmt::print("  {:>4}  {}: {}\n", first, planned.name, fmt::join(numbers_of(planned, source), ", "));
+        first += planned.count;
+    }
+}
+
 /// The scene's error budget, by the costs of the device that would evaluate it. Nothing when the scene has none.
 std::optional<Budget> budget_of(const Scene& scene, const Frame& frame, const std::string& device) {
     if (!scene.budget.max_error) return std::nullopt;
@@ -157,6 +170,7 @@ void explain(const ExplainArguments& arguments) {
     if (budget) print_choice(*budget);
     if (bins) print_bins(plan, *bins);
     print_volumes(volumes);
+    print_numbers(plan, {scene, frame.cryptomatte});
     if (arguments.no_source) return;
     fmt::print("\n{}", arguments.full ? expand_includes(plan.source, "evaluate.cl") : plan.source);
 }

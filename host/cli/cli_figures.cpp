@@ -4,7 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "run/draw_figure.h"
+#include "tools/draw_figure.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {

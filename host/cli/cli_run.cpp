@@ -12,7 +12,7 @@
 #include "cli/frame_list.h"
 #include "cli/options.h"
 #include "io/threads.h"
-#include "run/render.h"
+#include "tools/render.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {

@@ -10,8 +10,8 @@
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
-#include "run/render.h"
-#include "run/scatter.h"
+#include "run/open_frame.h"
+#include "tools/scatter.h"
 
 namespace wrinkle::cli {
 

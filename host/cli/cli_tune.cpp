@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "budget/tune.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "run/tune.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {

@@ -7,9 +7,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "base/names.h"
 #include "io/camera_json.h"
-#include "io/names.h"
-#include "scene/problems.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -24,7 +23,7 @@ std::vector<double> numbers_of(const std::string& text, const std::string& name)
         const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, number);
         if (error != std::errc() || stop != text.data() + end)
             throw CLI::ValidationError("--set " + name,
-                                       fmt::format("{} is no number", scene::quote(text.substr(begin, end - begin))));
+                                       fmt::format("{} is no number", quote(text.substr(begin, end - begin))));
         numbers.push_back(number);
         begin = end + 1;
     }
@@ -45,7 +44,7 @@ EvalFile parse_eval_file(const std::string& text) {
     const bool named = equals != std::string::npos && !name.empty() &&
                        std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
     if (!named) return {{}, text, {}};
-    const std::string rest = text.substr(equals + 1), lowered = io::lower(rest);
+    const std::string rest = text.substr(equals + 1), lowered = lower(rest);
     const std::size_t colon = lowered.rfind(".exr:");
     if (colon == std::string::npos) return {name, rest, {}};
     return {name, rest.substr(0, colon + 4), rest.substr(colon + 5)};
@@ -74,8 +73,8 @@ std::map<std::string, SettingValue> parse_settings(const Function& function, con
         const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
         const auto setting = std::ranges::find(function.settings, name, &Setting::name);
         if (setting == function.settings.end())
-            throw Error(fmt::format("{} has no setting {}{}", function.name, scene::quote(name),
-                                    known.empty() ? "; it has none" : scene::did_you_mean(name, known)));
+            throw Error(fmt::format("{} has no setting {}{}", function.name, quote(name),
+                                    known.empty() ? "; it has none" : did_you_mean(name, known)));
         if (values.contains(name)) throw Error(fmt::format("the setting \"{}\" is given twice", name));
         switch (setting->kind) {
             case Setting::Kind::camera:

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/names.h"
 #include "io/channel_index.h"
+#include "io/channel_names.h"
 #include "io/gbuffer_reader.h"
-#include "io/names.h"
 #include "io/npy_file.h"
-#include "scene/problems.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -52,7 +52,7 @@ std::vector<std::string> channels_of(const GBufferReader& reader, const std::str
         if (matched.empty() && whole.ends_with("." + layer)) matched = index.match(any, whole);
     if (matched.empty())
         throw Error(fmt::format("{}: no layer {} of {} channel{}; channels found: {}", reader.path().string(),
-                                scene::quote(layer), components, components == 1 ? "" : "s",
+                                quote(layer), components, components == 1 ? "" : "s",
                                 io::describe_channels(reader.channels())));
     return matched;
 }
@@ -74,7 +74,7 @@ Array<T> read_picture(const Parameter& parameter, const EvalFile& from) {
 
 template <class T>
 Array<T> read_named(const Parameter& parameter, const EvalFile& from) {
-    const std::string extension = io::lower(from.file.extension().string());
+    const std::string extension = lower(from.file.extension().string());
     if (extension == ".npy") return read_array<T>(parameter, from);
     if (extension == ".exr") return read_picture<T>(parameter, from);
     throw Error(fmt::format("--in {}={}: needs a .npy file, or FILE.exr:LAYER; CSV files are given without a name",
@@ -106,9 +106,8 @@ void add_pixel_centres(EvalInputs<T>& inputs, const Function& function) {
         if (std::ranges::none_of(function.parameters, has)) others.push_back(there);
     }
     std::string text = fmt::format("{} needs columns that {} does not have:", function.name, name);
-    for (const std::string& column : missing)
-        text += fmt::format("\n  \"{}\"{}", column, scene::did_you_mean(column, others));
-    throw Error(text + "\nit has " + scene::quote_list(table.names()));
+    for (const std::string& column : missing) text += fmt::format("\n  \"{}\"{}", column, did_you_mean(column, others));
+    throw Error(text + "\nit has " + quote_list(table.names()));
 }
 
 }  // namespace
@@ -140,8 +139,8 @@ EvalInputs<T> read_inputs(const Function& function, const std::vector<EvalFile>&
         }
         const auto parameter = std::ranges::find(function.parameters, from.name, &Parameter::name);
         if (parameter == function.parameters.end())
-            throw Error(fmt::format("{} has no parameter {}{}", function.name, scene::quote(from.name),
-                                    scene::did_you_mean(from.name, names)));
+            throw Error(fmt::format("{} has no parameter {}{}", function.name, quote(from.name),
+                                    did_you_mean(from.name, names)));
         const std::vector<std::string> columns = parameter->columns();
         if (inputs.columns.contains(columns[0])) throw Error(fmt::format("--in: {} is given twice", from.name));
         Array<T> array = read_named<T>(*parameter, from);
@@ -177,7 +176,7 @@ EvalInputs<T> read_inputs(const Function& function, const std::vector<EvalFile>&
             throw Error(
                 fmt::format("{0} needs {1}: --in {1}=FILE.npy, --in {1}=FILE.exr:LAYER, or the columns {2} of "
                             "a CSV file, --in FILE (- for standard input)",
-                            function.name, parameter.name, scene::quote_list(parameter.columns())));
+                            function.name, parameter.name, quote_list(parameter.columns())));
     return inputs;
 }
 

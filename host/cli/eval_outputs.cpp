@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
+#include "base/names.h"
 #include "io/image_writer.h"
-#include "io/names.h"
 #include "io/npy_file.h"
-#include "scene/problems.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -20,24 +19,24 @@ namespace {
 constexpr int standard_output = STDOUT_FILENO;
 constexpr std::size_t block = std::size_t{1} << 20;  // bytes that are collected before they are written
 
-std::string extension_of(const EvalFile& file) { return io::lower(file.file.extension().string()); }
+std::string extension_of(const EvalFile& file) { return lower(file.file.extension().string()); }
 
 /// Collects text and writes it to a file, or to standard output without one.
 class Stream {
 public:
-    explicit Stream(const io::AtomicFile* file) : file_(file) {}
+    explicit Stream(const AtomicFile* file) : file_(file) {}
     std::string& text() { return text_; }
     void flush(std::size_t unless_below = 0) {
         if (text_.size() < unless_below) return;
         if (file_)
             file_->write(text_);
-        else if (const int failed = io::write_all(standard_output, text_); failed != 0)
+        else if (const int failed = write_all(standard_output, text_); failed != 0)
             throw Error(fmt::format("cannot write the output: {}", std::strerror(failed)));
         text_.clear();
     }
 
 private:
-    const io::AtomicFile* file_;
+    const AtomicFile* file_;
     std::string text_;
 };
 
@@ -124,8 +123,8 @@ const Result& result_of(const Function& function, const std::string& name) {
         if (result.name == name) return result;
         names.push_back(result.name);
     }
-    throw Error(fmt::format("{} has no result {}{}; it has {}", function.name, scene::quote(name),
-                            scene::did_you_mean(name, names), scene::quote_list(names)));
+    throw Error(fmt::format("{} has no result {}{}; it has {}", function.name, quote(name), did_you_mean(name, names),
+                            quote_list(names)));
 }
 
 }  // namespace
@@ -163,14 +162,14 @@ std::vector<Result> EvalOutputs::results() const {
 template <class T>
 void EvalOutputs::write(const EvalInputs<T>& inputs, const EvalResults<T>& results) const {
     if (files_.empty()) return write_csv(Stream(nullptr), function_, inputs, results);
-    std::vector<std::unique_ptr<io::AtomicFile>> complete;
+    std::vector<std::unique_ptr<AtomicFile>> complete;
     std::map<std::filesystem::path, std::vector<Result>> pictures;
     for (const EvalFile& file : files_) {
         if (extension_of(file) == ".exr") {
             pictures[file.file].push_back(result_of(function_, file.name));
             continue;
         }
-        complete.push_back(std::make_unique<io::AtomicFile>(file.file));
+        complete.push_back(std::make_unique<AtomicFile>(file.file));
         if (file.name.empty())
             write_csv(Stream(complete.back().get()), function_, inputs, results);
         else

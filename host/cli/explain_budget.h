@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/budget.h"
+#include "budget/budget.h"
 
 /// What `wrinkle explain` says of an error budget: the variants a run starts with, and what the table expects of them.
 namespace wrinkle::cli {

@@ -1,11 +1,11 @@
 #include "wrinkle/functions.h"
+#include "base/names.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "functions/tables.h"
-#include "scene/problems.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -26,7 +26,7 @@ std::size_t check_columns(const Function& function, const Map& columns, const st
     const auto fail = [&](const std::string& text) { throw Error(fmt::format("{}: {}", function.name, text)); };
     for (const auto& [name, values] : columns)
         if (std::ranges::find(known, name) == known.end())
-            fail(fmt::format("has no {} column \"{}\"{}", what, name, scene::did_you_mean(name, known)));
+            fail(fmt::format("has no {} column \"{}\"{}", what, name, did_you_mean(name, known)));
     std::size_t rows = columns.empty() ? 0 : columns.begin()->second.size();
     for (const std::string& name : known) {
         const auto found = columns.find(name);
@@ -101,8 +101,8 @@ const Function& function(const std::string& name) {
         if (function.name == name) return function;
         names.push_back(function.name);
     }
-    throw Error(fmt::format("there is no function \"{}\"{} (wrinkle eval --list shows all)", name,
-                            scene::did_you_mean(name, names)));
+    throw Error(
+        fmt::format("there is no function \"{}\"{} (wrinkle eval --list shows all)", name, did_you_mean(name, names)));
 }
 
 void evaluate_function(const Device& device, const Function& function, const Columns& in, const ColumnResults& out,

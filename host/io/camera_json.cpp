@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scene/problems.h"
+#include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
@@ -27,12 +27,12 @@ json parse(const std::filesystem::path& file) {
         if (value.is_object()) return value;
     } catch (const json::out_of_range& error) {
         const std::string text = error.what();  // "[json.exception...] number overflow parsing '1e999'"
-        const auto quote = text.find('\''), end = text.rfind('\'');
-        const std::string number = quote < end ? text.substr(quote + 1, end - quote - 1) : "";
+        const auto begin = text.find('\''), end = text.rfind('\'');
+        const std::string number = begin < end ? text.substr(begin + 1, end - begin - 1) : "";
         const auto place =
             content.begin() + static_cast<std::ptrdiff_t>(std::min(content.find(number), content.size()));
         throw Error(fmt::format("{}: not a camera file: a number at line {} is out of range: {}", file.string(),
-                                1 + std::count(content.begin(), place, '\n'), scene::quote(number)));
+                                1 + std::count(content.begin(), place, '\n'), quote(number)));
     } catch (const json::exception& error) {
         const std::string text = error.what();  // "[json.exception...] parse error at line 3, column 5: ..."
         const auto at = text.find("at line");

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "io/names.h"
+#include "base/names.h"
+#include "io/channel_names.h"
 #include "io/writer_names.h"
 
 namespace wrinkle::io {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "io/names.h"
+#include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -106,7 +106,7 @@ std::uint32_t CryptomatteManifest::id(std::string_view name) const {
     if (found != ids_.end()) return found->second;
     const auto known = names();
     throw Error(fmt::format("cryptomatte {} has no object \"{}\"; nearest: \"{}\"; objects: {}", layer_, name,
-                            io::nearest_name(name, known), fmt::join(known, ", ")));
+                            nearest_name(name, known), fmt::join(known, ", ")));
 }
 
 }  // namespace wrinkle

@@ -5,10 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "base/names.h"
 #include "io/band_reader.h"
+#include "io/channel_names.h"
 #include "io/image_open.h"
 #include "io/image_parts.h"
-#include "io/names.h"
 #include "io/packed_normals.h"
 #include "wrinkle/error.h"
 
@@ -56,7 +57,7 @@ struct GBufferReader::Impl {
         if (plane.starts_with(file_channel)) {
             plane.remove_prefix(file_channel.size());
             throw Error(fmt::format("{}: no channel \"{}\"; nearest: \"{}\"; channels found: {}", path.string(), plane,
-                                    io::nearest_name(plane, channels), found));
+                                    nearest_name(plane, channels), found));
         }
         const auto role = plane.starts_with("crypto.") ? "cryptomatte" : plane.substr(0, plane.find('.'));
         throw Error(

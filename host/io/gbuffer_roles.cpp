@@ -5,8 +5,9 @@
 #include <cctype>
 #include <set>
 
+#include "base/names.h"
 #include "io/channel_index.h"
-#include "io/names.h"
+#include "io/channel_names.h"
 #include "io/role_overrides.h"
 #include "io/writer_names.h"
 #include "wrinkle/error.h"
@@ -92,7 +93,7 @@ void fill_mitsuba(RoleMap& map, const ChannelIndex& index) {
         if (layer.empty() || taken.contains(layer)) continue;
         if (all.contains("t") && all.size() == 1) ray.push_back(layer);
         if (all.contains("u") && all.contains("v") && all.size() == 2 && !layer.starts_with("duv")) uv.push_back(layer);
-        if (all.contains("i") && all.size() == 1 && !io::contains_ignoring_case(layer, "prim")) object.push_back(layer);
+        if (all.contains("i") && all.size() == 1 && !contains_ignoring_case(layer, "prim")) object.push_back(layer);
     }
     const auto take = [&](const std::vector<std::string>& layers, std::string_view name) {
         const auto& role = *std::ranges::find(gbuffer_roles(), name, &Role::name);
@@ -107,7 +108,7 @@ void assign_cryptomatte(RoleMap& map, const ChannelIndex& index, const std::stri
     for (const auto& [stem, ranks] : found) {
         const auto [layer_prefix, base] = split_prefix(stem);
         if (layer_prefix != prefix && !layer_prefix.empty()) continue;
-        const int score = io::contains_ignoring_case(base, "object") ? 2 : io::contains_ignoring_case(base, "asset");
+        const int score = contains_ignoring_case(base, "object") ? 2 : contains_ignoring_case(base, "asset");
         if (score > best) best = score, io::assign_ranks(map, stem, ranks);
     }
 }
@@ -159,7 +160,7 @@ RoleMap detect_roles(std::span<const std::string> channels, const std::map<std::
         map.depth = ray ? DepthKind::ray : DepthKind::planar;
     }
     if (const auto normal = map.channel_of.find("normal.x"); normal != map.channel_of.end()) {
-        map.screen_space_normals = io::contains_ignoring_case(normal->second, "bump_normals");
+        map.screen_space_normals = contains_ignoring_case(normal->second, "bump_normals");
     }
     return map;
 }

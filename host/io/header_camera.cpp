@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "io/names.h"
+#include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "io/metadata_data.h"
-#include "io/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {

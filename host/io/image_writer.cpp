@@ -8,11 +8,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
+#include "base/names.h"
 #include "io/descriptor_proxy.h"
 #include "io/image_open.h"
 #include "io/metadata_data.h"
-#include "io/names.h"
 #include "io/reason.h"
 #include "wrinkle/error.h"
 
@@ -34,7 +34,7 @@ bool describes_storage(std::string_view name) {
 
 /// Whether a channel stays 32-bit in a half file: ids of Cryptomatte, and those that the caller names.
 bool keeps_bits(const std::string& channel, const ImageOptions& options) {
-    return options.full.contains(channel) || io::contains_ignoring_case(channel, "crypto");
+    return options.full.contains(channel) || contains_ignoring_case(channel, "crypto");
 }
 
 OIIO::ImageSpec exr_spec(Size size, const std::vector<std::string>& channels, const ImageOptions& options) {
@@ -68,7 +68,7 @@ float png_value(float value, PngEncoding encoding, float factor) {
 struct ImageWriter::Impl {
     Impl(const std::filesystem::path& path, Size size, std::vector<std::string> channels, ImageOptions given)
         : size(size), names(std::move(channels)), options(std::move(given)), file(path), proxy(file.descriptor()) {
-        const auto extension = io::lower(path.extension().string());
+        const auto extension = lower(path.extension().string());
         png = extension == ".png";
         auto spec = png ? OIIO::ImageSpec(static_cast<int>(size.width), static_cast<int>(size.height),
                                           static_cast<int>(names.size()), OIIO::TypeUInt8)
@@ -131,14 +131,14 @@ struct ImageWriter::Impl {
     std::vector<bool> keep_finite;
     std::uint32_t next_row = 0;
     std::vector<float> scratch;
-    io::AtomicFile file;  // declared in this order, so that output goes before proxy, and proxy before file
+    AtomicFile file;  // declared in this order, so that output goes before proxy, and proxy before file
     io::DescriptorProxy proxy;
     std::unique_ptr<OIIO::ImageOutput> output;
 };
 
 ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, std::vector<std::string> channels,
                          ImageOptions options) {
-    const auto extension = io::lower(file.extension().string());
+    const auto extension = lower(file.extension().string());
     if (extension != ".exr" && extension != ".png") {
         throw Error(fmt::format("cannot write {}: \"{}\" is not a format wrinkle writes; use .exr or .png",
                                 file.string(), extension));

@@ -88,37 +88,6 @@ void find_camera(GBufferInfo& info, const GBufferReader& reader) {
     } catch (const Error& error) { info.camera_problem = error.what(); }
 }
 
-std::vector<Readiness> judge(const GBufferReader& reader, bool has_camera) {
-    std::vector<std::string> base;
-    const auto need = [&](std::vector<std::string> missing, const char* role) {
-        if (!reader.has_role(role)) missing.emplace_back(role);
-        return missing;
-    };
-    base = need(base, "normal");
-    if (!reader.has_role("depth") && !reader.has_role("position")) base.emplace_back("depth or position");
-    if (!has_camera) base.emplace_back("camera");
-    if (reader.roles().screen_space_normals) base.emplace_back("normal in world space (this one is in screen space)");
-
-    std::vector<Readiness> uses;
-    for (const char* kind : {"normal_map", "height_map", "object_normal", "derivative_map", "parallax"})
-        uses.push_back({kind, need(base, "uv"), {}});
-    std::vector<std::string> tangents = need(need(base, "uv"), "tangent");
-    if (!reader.has_role("tangent_sign") && !reader.has_role("bitangent"))
-        tangents.emplace_back("tangent_sign or bitangent");
-    uses.push_back({"normal_map with frame = \"tangents\"", tangents, {}});
-    for (const char* kind : {"height_channel", "triplanar", "noise", "decal", "decals", "volume", "constant"})
-        uses.push_back({kind, base, {}});
-    Readiness lighting{"lighting", base, {}};
-    for (const char* role : {"albedo", "roughness"}) {
-        if (!reader.has_role(role)) lighting.defaults.emplace_back(role);
-    }
-    uses.push_back(lighting);
-    uses.push_back({"relight = \"ratio\"", need(base, "beauty"), lighting.defaults});
-    uses.push_back({"mask by object", need({}, "object"), {}});
-    uses.push_back({"mask by cryptomatte", need({}, "cryptomatte"), {}});
-    return uses;
-}
-
 }  // namespace
 
 GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraSource>& camera, int frame) {
@@ -137,7 +106,6 @@ GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraS
     } else {
         find_camera(info, reader);
     }
-    info.uses = judge(reader, info.camera.has_value());
     return info;
 }
 

@@ -20,14 +20,7 @@ struct RoleStats {
     std::uint64_t invalid = 0;  ///< pixels with NaN or Inf; normals of length 0; depths outside (0, 1e9)
 };
 
-/// Whether the frame has all that one use of it needs.
-struct Readiness {
-    std::string use;                    ///< a layer kind, "lighting", "mask by object" ...
-    std::vector<std::string> missing;   ///< what it lacks; empty when it is ready
-    std::vector<std::string> defaults;  ///< missing roles that are replaced by constants of the scene
-};
-
-/// What `wrinkle info` prints.
+/// What `wrinkle info` prints of the frame itself; tools/readiness.h says what it is good for.
 struct GBufferInfo {
     std::filesystem::path file;
     RoleMap roles;  ///< writer, plane to channel, depth kind, cryptomatte layer
@@ -38,7 +31,6 @@ struct GBufferInfo {
     std::vector<RoleStats> stats;
     std::optional<FrameCamera> camera;
     std::string camera_problem;  ///< why there is no camera
-    std::vector<Readiness> uses;
     std::vector<std::string> cryptomatte_names;
 
     std::uint64_t pixels() const { return std::uint64_t{size.width} * size.height; }

@@ -32,7 +32,8 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
     const auto [width, height] = reader.size();
     const bool with_depth = reader.has_role("depth"), with_normal = reader.has_role("normal");
     std::vector<std::string> planes{"position.x", "position.y", "position.z"};
-    if (with_normal) planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z"});
+    if (with_normal)
+        for (const char* name : {"normal.x", "normal.y", "normal.z"}) planes.emplace_back(name);
     if (with_depth) planes.emplace_back("depth");
     // Rows are read in neighbouring pairs: both lie in one compressed block, so the second costs nothing.
     std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{2} * width));

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "io/names.h"
+#include "base/names.h"
+#include "io/channel_names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {

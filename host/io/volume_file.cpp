@@ -11,11 +11,10 @@
 #include <fstream>
 #include <new>
 
-#include "io/atomic_file.h"
-#include "io/names.h"
+#include "base/atomic_file.h"
+#include "base/names.h"
 #include "io/reason.h"
 #include "io/volume_grid.h"
-#include "scene/problems.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -31,7 +30,7 @@ constexpr double kMostBlocks = 1 << 28;                                         
 std::string list(const std::vector<ListedGrid>& grids) {
     std::string text;
     for (const ListedGrid& grid : grids)
-        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", scene::quote(grid.name), grid.type);
+        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", quote(grid.name), grid.type);
     return text.empty() ? "none" : text;
 }
 
@@ -44,8 +43,8 @@ std::size_t choose(const fs::path& file, const std::vector<ListedGrid>& grids, c
         if (wanted.empty() ? grids[i].usable : grids[i].name == wanted) fitting.push_back(i);
     }
     if (!wanted.empty() && fitting.empty())
-        throw Error(fmt::format("{}: there is no grid {}{}; grids: {}", file.string(), scene::quote(wanted),
-                                scene::did_you_mean(wanted, names), list(grids)));
+        throw Error(fmt::format("{}: there is no grid {}{}; grids: {}", file.string(), quote(wanted),
+                                did_you_mean(wanted, names), list(grids)));
     if (fitting.empty())
         throw Error(fmt::format("{}: holds no grid of float, double or 3-vectors of them; grids: {}", file.string(),
                                 list(grids)));
@@ -55,7 +54,7 @@ std::size_t choose(const fs::path& file, const std::vector<ListedGrid>& grids, c
     const ListedGrid& grid = grids[fitting.front()];
     if (!grid.usable)
         throw Error(fmt::format("{}: the grid {} holds {}; float, double or 3-vectors of them are expected; grids: {}",
-                                file.string(), scene::quote(grid.name), grid.type, list(grids)));
+                                file.string(), quote(grid.name), grid.type, list(grids)));
     return fitting.front();
 }
 
@@ -118,7 +117,7 @@ std::pair<RawVolume, std::string> read_grid(const fs::path& file, const std::str
 
 VolumeInfo info_of(const fs::path& file, const std::string& name, const RawVolume& raw) {
     const auto fail = [&](const std::string& text) {
-        return Error(fmt::format("{}: the transform of the grid {} {}", file.string(), scene::quote(name), text));
+        return Error(fmt::format("{}: the transform of the grid {} {}", file.string(), quote(name), text));
     };
     if (!raw.affine) throw fail("is a frustum; an affine one is expected");
     if (is_singular(raw.world_from_index)) throw fail("cannot be inverted: its axes are zero, parallel or not finite");
@@ -130,7 +129,7 @@ bool finite(const std::array<float, 3>& v) { return std::isfinite(v[0]) && std::
 /// Sorts leaves and tiles into the box of blocks. Throws Error when the grid is empty, too large or not finite.
 Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
     const auto fail = [&](const std::string& text) {
-        return Error(fmt::format("{}: the grid {} {}", file.string(), scene::quote(info.grid), text));
+        return Error(fmt::format("{}: the grid {} {}", file.string(), quote(info.grid), text));
     };
     if (raw.leaves.empty() && raw.tiles.empty()) throw fail("is empty: it holds its background and nothing else");
     if (!finite(raw.background)) throw fail("has a background that is not finite");
@@ -193,7 +192,7 @@ VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
 }
 
 void check_volume_name(const fs::path& file, int channels) {
-    const std::string extension = io::lower(file.extension().string());
+    const std::string extension = lower(file.extension().string());
     if (extension != ".vdb" && extension != ".nvdb")
         throw Error(fmt::format("cannot write {}: \"{}\" is no extension of a volume file; use .vdb or .nvdb",
                                 file.string(), file.extension().string()));
@@ -203,9 +202,9 @@ void check_volume_name(const fs::path& file, int channels) {
 
 void save_volume(const fs::path& file, const DenseVolume& volume) {
     check_volume_name(file, volume.channels);
-    const bool nano = io::lower(file.extension().string()) == ".nvdb";
+    const bool nano = lower(file.extension().string()) == ".nvdb";
     constexpr std::size_t kBlock = std::size_t{1} << 20;
-    io::AtomicFile complete(file);
+    AtomicFile complete(file);
     __gnu_cxx::stdio_filebuf<char> buffer(::dup(complete.descriptor()), std::ios::out | std::ios::binary, kBlock);
     std::ostream out(&buffer);
     out.exceptions(std::ios::failbit | std::ios::badbit);

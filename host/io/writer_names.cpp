@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "io/names.h"
+#include "io/channel_names.h"
+
+#include "base/names.h"
 
 namespace wrinkle::io {
 

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/error_sample.h"
+#include "base/error_stats.h"
+#include "run/normals_only.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/names.h"
+#include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -72,11 +72,11 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     std::set<std::string> full;  // depths, positions and ids of the input do not survive as half
     if (output.passthrough) {
         std::set<std::string> replaced;  // the old normals too: who reads the file shall find the new ones
-        for (const std::string& channel : channels) replaced.insert(io::lower(channel));
+        for (const std::string& channel : channels) replaced.insert(lower(channel));
         for (const auto& [plane, channel] : reader.roles().channel_of)
-            if (plane.starts_with("normal.")) replaced.insert(io::lower(channel));
+            if (plane.starts_with("normal.")) replaced.insert(lower(channel));
         for (const std::string& channel : reader.channels()) {
-            if (replaced.contains(io::lower(channel))) continue;
+            if (replaced.contains(lower(channel))) continue;
             passed_.push_back("channel:" + channel);
             planes.push_back(passed_.back());
             channels.push_back(channel);

@@ -31,15 +31,15 @@ void add_missing(std::vector<std::string>& names, const std::vector<std::string>
 
 }  // namespace
 
-void FrameRun::measure(ErrorSample& sample, const Camera& camera) {
-    sample_ = &sample;
-    sample.start(camera, band_rows(pass_.size));
+void FrameRun::check_bands(BandCheck& check, const Camera& camera) {
+    check_ = &check;
+    check.start(camera, band_rows(pass_.size));
 }
 
 double FrameRun::run(const std::function<void(double)>& progress) {
     names_ = pass_.plan.inputs;
     if (outputs_ != nullptr) add_missing(names_, outputs_->passed_planes());
-    if (sample_ != nullptr) add_missing(names_, sample_->inputs());
+    if (check_ != nullptr) add_missing(names_, check_->inputs());
     if (condition_ != nullptr) add_missing(names_, condition_->inputs());
     const Size size = pass_.size;
     const std::uint32_t rows = band_rows(size), halo = pass_.plan.neighbours ? 1 : 0;
@@ -109,9 +109,9 @@ void FrameRun::evaluate(Slot& slot) {
     });
     if (condition_ != nullptr)
         clock_.measure(PhaseClock::check, [&] { slot.condition = condition_->evaluate(slot.inputs, slot.rows); });
-    if (sample_ == nullptr) return;
+    if (check_ == nullptr) return;
     clock_.measure(PhaseClock::check,
-                   [&] { sample_->add(slot.inputs.planes(), slot.rows, slot.outputs, pass_.options.fp64); });
+                   [&] { check_->add(slot.inputs.planes(), slot.rows, slot.outputs, pass_.options.fp64); });
 }
 
 void FrameRun::write(Slot& slot) {

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "io/gbuffer_reader.h"
+#include "run/band_check.h"
 #include "run/condition.h"
-#include "run/error_sample.h"
 #include "run/frame_outputs.h"
 #include "run/mask_matches.h"
 #include "run/phase_clock.h"
@@ -19,8 +19,8 @@ public:
         : pass_(pass), reader_(reader), clock_(clock) {}
 
     void write_to(FrameOutputs& outputs) { outputs_ = &outputs; }
-    /// Measures errors on the way; the sample was not started.
-    void measure(ErrorSample& sample, const Camera& camera);
+    /// Has bands checked before they are written; the check was not started.
+    void check_bands(BandCheck& check, const Camera& camera);
     /// Writes the condition of every pixel too.
     void add_condition(Condition& condition) { condition_ = &condition; }
     /// Shows it all pixels, once the frame has begun there.
@@ -48,7 +48,7 @@ private:
     const GBufferReader& reader_;
     PhaseClock& clock_;
     FrameOutputs* outputs_ = nullptr;
-    ErrorSample* sample_ = nullptr;
+    BandCheck* check_ = nullptr;
     Condition* condition_ = nullptr;
     MaskMatches* matches_ = nullptr;
     int repeat_ = 1;

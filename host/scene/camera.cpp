@@ -6,12 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "scene/vec.h"
+#include "base/vec.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
-
-using scene::cross, scene::dot, scene::normalize, scene::parallel, scene::subtract;
 
 namespace {
 

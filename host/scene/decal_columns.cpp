@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/names.h"
 #include "scene/table.h"
 
 namespace wrinkle::scene {

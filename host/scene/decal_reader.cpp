@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scene/vec.h"
+#include "base/names.h"
+#include "base/vec.h"
 
 namespace wrinkle::scene {
 

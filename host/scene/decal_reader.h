@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/problems.h"
 #include "scene/decal_columns.h"
-#include "scene/problems.h"
 
 namespace wrinkle::scene {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/csv_rows.h"
 #include "io/csv_table.h"
 #include "io/npy_records.h"
@@ -60,8 +60,10 @@ std::vector<Projector> load_npy(const std::filesystem::path& file, std::size_t t
 
 std::string csv_text(std::span<const DecalColumn* const> columns, const std::vector<Projector>& rows) {
     std::string text;
-    for (const DecalColumn* column : columns)
-        text += (column == columns.front() ? "" : ",") + std::string(column->name);
+    for (const DecalColumn* column : columns) {
+        if (column != columns.front()) text += ',';
+        text += column->name;
+    }
     for (const Projector& row : rows) {
         text += '\n';
         for (const DecalColumn* column : columns) {
@@ -90,7 +92,7 @@ void save_decals(const std::filesystem::path& file, const std::vector<Projector>
             rows, [&, usual = column.write(standard)](const Projector& row) { return column.write(row) != usual; });
         if (differs || &column < decal_columns().data() + kRequiredColumns) used.push_back(&column);
     }
-    io::AtomicFile out(file);
+    AtomicFile out(file);
     out.write(is_toml(file) ? decal_toml(used, rows) : csv_text(used, rows));
     out.commit();
 }

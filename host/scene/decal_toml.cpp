@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/names.h"
 #include "io/csv_table.h"
 #include "scene/decal_reader.h"
 #include "scene/toml.h"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/names.h"
 #include "scene/table.h"
 
 namespace wrinkle::scene {

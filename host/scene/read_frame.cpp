@@ -4,9 +4,10 @@
 #include <limits>
 #include <vector>
 
+#include "base/names.h"
+#include "base/vec.h"
 #include "io/camera_json.h"
 #include "scene/readers.h"
-#include "scene/vec.h"
 #include "wrinkle/error.h"
 #include "wrinkle/gbuffer.h"
 

@@ -2,9 +2,9 @@
 
 #include <numbers>
 
+#include "base/vec.h"
 #include "scene/kinds.h"
 #include "scene/readers.h"
-#include "scene/vec.h"
 
 namespace wrinkle::scene {
 namespace {

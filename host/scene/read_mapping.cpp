@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/names.h"
+#include "base/vec.h"
 #include "scene/readers.h"
-#include "scene/vec.h"
 
 namespace wrinkle::scene {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/problems.h"
+#include "base/problems.h"
 #include "scene/toml.h"
 
 namespace wrinkle::scene {

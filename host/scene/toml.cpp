@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/problems.h"
+#include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::scene {

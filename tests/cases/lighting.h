@@ -1,6 +1,6 @@
 #pragma once
 
-#include "run/frame_constants.h"
+#include "resources/frame_constants.h"
 #include "tests/cases/cases.h"
 #include "tests/reference/lighting.h"
 

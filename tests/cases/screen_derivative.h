@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "run/frame_constants.h"
+#include "resources/frame_constants.h"
 #include "tests/cases/cases.h"
 #include "tests/reference/screen_derivative.h"
 
@@ -48,8 +48,8 @@ inline void put(double (&to)[3], V v) {
     to[0] = static_cast<double>(v.x), to[1] = static_cast<double>(v.y), to[2] = static_cast<double>(v.z);
 }
 
-inline wr_frame frame_of(const Row& row) {
-    wr_frame f{};
+inline wr_camera frame_of(const Row& row) {
+    wr_camera f{};
     put(f.c0, row.c(0)), put(f.c1, row.c(1)), put(f.c2, row.c(2)), put(f.c3, row.c(3));
     for (std::size_t i = 0; i < 4; ++i) f.w[i] = static_cast<double>(row.m[3][i]);
     // The length of a ray's direction does not matter.
@@ -75,9 +75,9 @@ inline void add(Cases& c, const std::string& label, bool hard, const Row& row, b
         pinhole ? reference::screen_derivative_pinhole(dot(row.position, d0) / dot(d0, d0), n, d0, row.c(0), row.c(1))
                 : reference::screen_derivative(row.position, n, row.m, row.x, row.y);
     c.out("dp_dx", d.dp_dx), c.out("dp_dy", d.dp_dy);
-    const wr_frame f = frame_of(row);
+    const wr_camera f = frame_of(row);
     const double* numbers = &f.width;
-    c.data.constants.insert(c.data.constants.end(), numbers, numbers + sizeof(wr_frame) / sizeof(double));
+    c.data.constants.insert(c.data.constants.end(), numbers, numbers + sizeof(wr_camera) / sizeof(double));
 }
 
 struct Projection {
@@ -156,7 +156,7 @@ inline void add_conventions(Cases& c, bool pinhole) {
 /// eye.
 inline Cases screen_derivative_cases(bool pinhole) {
     Cases c;
-    c.data.constants_per_row = sizeof(wr_frame) / sizeof(double);
+    c.data.constants_per_row = sizeof(wr_camera) / sizeof(double);
     c.name = pinhole ? "listing10, pinhole form" : "listing10, general form";
     const GoldenTable table = reference::golden("listing10_screenderiv_noddxy");
     for (std::size_t i = 0; i < table.size(); ++i) {

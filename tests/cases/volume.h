@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "run/volume_heap.h"
+#include "resources/volume_heap.h"
 #include "tests/cases/cases.h"
 #include "tests/reference/volume.h"
 

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <limits>
 
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/gbuffer_reader.h"
 #include "tests/io/files.h"
 
@@ -225,19 +225,19 @@ TEST(ImageWriter, PlacesThatCannotBeWritten) {
 
 TEST(AtomicFile, NamedTemporariesAreRemovedToo) {
     TempFolder folder;
-    const auto write = [](const io::AtomicFile& file) { return ::write(file.descriptor(), "new!", 4) == 4; };
+    const auto write = [](const AtomicFile& file) { return ::write(file.descriptor(), "new!", 4) == 4; };
     write_text(folder / "a", "old");
     {
-        io::AtomicFile file(folder / "a", io::AtomicFile::Temporary::named);
+        AtomicFile file(folder / "a", AtomicFile::Temporary::named);
         EXPECT_TRUE(write(file));
         EXPECT_EQ(folder.files().size(), 2u);
     }
     EXPECT_EQ(folder.files(), Names{"a"});
     EXPECT_EQ(std::filesystem::file_size(folder / "a"), 3u);
-    for (const auto temporary : {io::AtomicFile::Temporary::named, io::AtomicFile::Temporary::unnamed_if_possible}) {
+    for (const auto temporary : {AtomicFile::Temporary::named, AtomicFile::Temporary::unnamed_if_possible}) {
         for (const std::string name : {"a", "fresh"}) {
             std::filesystem::create_symlink("a", folder / "link");
-            io::AtomicFile file(folder / (name == "a" ? "link" : name), temporary);
+            AtomicFile file(folder / (name == "a" ? "link" : name), temporary);
             EXPECT_TRUE(write(file));
             file.commit();
             EXPECT_EQ(std::filesystem::file_size(folder / name), 4u);

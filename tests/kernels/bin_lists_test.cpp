@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "device/program.h"
-#include "run/decal_bounds.h"
+#include "resources/decal_bounds.h"
 #include "tests/cases/projector.h"
 #include "tests/kernels/kernel_function.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "device/program.h"
-#include "run/decal_bounds.h"
+#include "resources/decal_bounds.h"
 #include "tests/cases/projector.h"
 #include "tests/kernels/kernel_function.h"
 
@@ -19,8 +19,8 @@ using V = reference::Vec<real>;
 TEST(BinTests, EveryPixelLiesInTheTileOfItsNumber) {
     ColumnKernel f;
     f.body =
-        "index tile = wr_tile_number(wr_index(x), wr_index(y), 3);\n"
-        "real left = 0, top = 0;\n"
+        "wr_index tile = wr_tile_number(wr_to_index(x), wr_to_index(y), 3);\n"
+        "wr_real left = 0, top = 0;\n"
         "wr_each_lane(k) {\n"
         "    uint2 corner = wr_tile_corner((uint)wr_lane(tile, k), 3);\n"
         "    wr_lane(left, k) = corner.x, wr_lane(top, k) = corner.y;\n}";
@@ -41,8 +41,8 @@ TEST(BinTests, EveryPixelLiesInTheTileOfItsNumber) {
 TEST(BinTests, TilesBelongToTheirBlocksAndSuperBlocks) {
     ColumnKernel f;
     f.body =
-        "index tile = wr_tile_number(wr_index(x), wr_index(y), 3);\n"
-        "real number = 0;\nwr_each_lane(k) wr_lane(number, k) = (WR_SCALAR)wr_lane(tile, k);";
+        "wr_index tile = wr_tile_number(wr_to_index(x), wr_to_index(y), 3);\n"
+        "wr_real number = 0;\nwr_each_lane(k) wr_lane(number, k) = (WR_SCALAR)wr_lane(tile, k);";
     f.outputs = {"number"};
     cases::Columns columns;
     for (int y = 0; y < 256; y += 8)

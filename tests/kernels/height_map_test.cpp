@@ -11,7 +11,7 @@ constexpr double bound = 2e-5;  // heights per texel
 std::string slope_text(int texture, const std::string& form) {
     return fmt::format(
         "wr_texture t = wr_texture_at(texels, textures, {});\n"
-        "vec2 d = {}(t, st, lod);\n"
+        "wr_vec2 d = {}(t, st, lod);\n"
         "d = wr_v2(d.x / wr_texture_width(t), d.y / wr_texture_height(t));",
         texture, form);
 }
@@ -31,7 +31,7 @@ TEST(HeightMap, Lod) {
     check(cases::height_slope_cases(false),
           "wr_texture t = wr_texture_at(texels, textures, (uint)constants[0]);\n"
           "wr_levels l = wr_texture_levels(t, wr_texture_lod(t, dst_dx, dst_dy));",
-          {{"lod", {"wr_real(l.fine) + l.weight"}, ErrorMeasure::absolute, 1e-6, 1e-6}});
+          {{"lod", {"wr_to_real(l.fine) + l.weight"}, ErrorMeasure::absolute, 1e-6, 1e-6}});
 }
 
 }  // namespace

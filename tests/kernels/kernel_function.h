@@ -54,7 +54,7 @@ inline ColumnData float_planes(const std::vector<std::vector<float>>& planes) {
 /// double runs, and truth(m), which makes a mask a number.
 inline Results run_kernel(ColumnKernel kernel, const Columns& columns, Variant variant, const ColumnData& data = {}) {
     kernel.body = (variant.fp64 ? "#define unit(n) wr_normalize(n)\n" : "#define unit(n) (n)\n") +
-                  ("#define truth(m) ((m) ? (real)(1) : (real)(0))\n" + kernel.body);
+                  ("#define truth(m) ((m) ? (wr_real)(1) : (wr_real)(0))\n" + kernel.body);
     return variant.fp64 ? run_as<double>(kernel, columns, variant.lanes, data)
                         : run_as<float>(kernel, columns, variant.lanes, data);
 }

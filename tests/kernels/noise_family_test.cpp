@@ -64,7 +64,7 @@ TEST(NoiseFamily, MeansAreThoseOfTheReference) {
         const auto want = reference::noise_means<double>(layer);
         const Results got =
             run_kernel({fmt::format("wr_noise_means m = wr_noise_mean((wr_noise){{.basis = {}}});", basis),
-                        {"(real)(m.value)", "(real)(m.magnitude)", "(real)(m.square)"}},
+                        {"(wr_real)(m.value)", "(wr_real)(m.magnitude)", "(wr_real)(m.square)"}},
                        {{"unused", {0}}}, {1, false});
         EXPECT_FLOAT_EQ(static_cast<float>(got[0][0]), static_cast<float>(want.value)) << basis;
         EXPECT_FLOAT_EQ(static_cast<float>(got[1][0]), static_cast<float>(want.magnitude)) << basis;

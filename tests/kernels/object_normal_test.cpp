@@ -33,7 +33,7 @@ TEST(ObjectNormal, RepeatsOrClamps) {
     }
     check(c,
           "wr_texture repeat = wr_texture_at(texels, textures, 0), clamp = wr_texture_at(texels, textures, 1);\n"
-          "vec3 a = wr_object_normal(repeat, st, lod), b = wr_object_normal_clamp(clamp, st, lod);",
+          "wr_vec3 a = wr_object_normal(repeat, st, lod), b = wr_object_normal_clamp(clamp, st, lod);",
           {{"repeated", xyz("a"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
            {"clamped", xyz("b"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
            {"across", {"wr_texels_across(repeat)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7, 1e-7}});
@@ -55,7 +55,7 @@ TEST(ObjectNormal, RowsTurnAVector) {
         c.in("a", rows[0]), c.in("b", rows[1]), c.in("c", rows[2]), c.in("n", n);
         c.out("turned", want);
     }
-    check(c, "vec3 r = wr_turn(a, b, c, n);", {{"turned", xyz("r"), ErrorMeasure::degrees, 2e-5, 2e-5, 1e-5}});
+    check(c, "wr_vec3 r = wr_turn(a, b, c, n);", {{"turned", xyz("r"), ErrorMeasure::degrees, 2e-5, 2e-5, 1e-5}});
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(Pair, DotProductsThatCancel) {
     }
     check(c,
           "wr_pair3 p = {{b.x, low.x}, {b.y, low.y}, {b.z, low.z}};\n"
-          "real d = wr_dot2(a, p);",
+          "wr_real d = wr_dot2(a, p);",
           {{"dot", {"d"}, ErrorMeasure::absolute, 1.3e-7, 2e-14}});
 }
 

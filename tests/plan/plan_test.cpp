@@ -12,7 +12,7 @@ TEST(Plan, OfNoLayersOnlyDecodesAndWrites) {
     EXPECT_EQ(plan.outputs, (Names{"normal.x", "normal.y", "normal.z"}));
     EXPECT_EQ(titles(plan), (Names{"decode the G-buffer", "write"}));
     for (const char* part :
-         {"dp_dx", "in_uv", "in_object", "wr_fractal", "wr_texture", "wr_light_surface", "wr_decal_"})
+         {"dp_dx", "in_uv", "in_object", "wr_fractal", "wr_texture", "wr_light_surface", "wr_projector_"})
         EXPECT_FALSE(mentions(plan, part)) << part;
     EXPECT_TRUE(plan.textures.empty() && plan.origins.empty() && plan.decals.empty());
     EXPECT_FALSE(plan.neighbours);

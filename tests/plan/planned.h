@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plan/plan.h"
+#include "layers/kinds.h"
 #include "wrinkle/error.h"
 #include "wrinkle/gbuffer.h"
 
@@ -55,6 +55,16 @@ inline std::vector<std::string> titles(const Plan& plan) {
     std::vector<std::string> list;
     for (const SectionSummary& section : plan.sections) list.push_back(section.title);
     return list;
+}
+
+/// The numbers of a plan whose description holds `what`, in order.
+inline std::vector<double> numbers(const Plan& plan, const Scene& scene, const std::string& what) {
+    const Available all = everything();
+    std::vector<double> found;
+    for (const PlannedNumbers& planned : plan.numbers)
+        if (planned.name.find(what) != std::string::npos)
+            for (const double value : numbers_of(planned, {scene, all.cryptomatte})) found.push_back(value);
+    return found;
 }
 
 inline std::string refusal(const Scene& scene, const Available& available) {

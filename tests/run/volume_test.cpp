@@ -1,8 +1,8 @@
 // Volumes on the golden-ratio surface, whose normals, derivatives and gradients are known exactly.
 #include "tests/reference/volume.h"
-#include "run/bake.h"
 #include "tests/run/run_frame.h"
 #include "tests/run/temp_volume.h"
+#include "tools/bake.h"
 #include "wrinkle/functions.h"
 
 namespace wrinkle::test {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+/// Names in messages and comparisons.
+namespace wrinkle {
+
+std::string lower(std::string_view text);
+
+/// `needle` appears in `text`, whatever the case.
+bool contains_ignoring_case(std::string_view text, std::string_view needle);
+
+/// `text` in double quotes, on one line, shortened when long: safe to print whatever the file held.
+std::string quote(std::string_view text);
+
+/// "a", "b", "c"
+std::string quote_list(std::span<const std::string> names);
+
+/// The known name that takes the fewest edits to become `name`, whatever the case; empty where none is known. A swap
+/// of two neighbours is one edit, as it is one slip of the fingers.
+std::string nearest_name(std::string_view name, std::span<const std::string> known);
+
+/// `; did you mean "scale"?`, or nothing when no known name is near.
+std::string did_you_mean(std::string_view name, std::span<const std::string> known);
+
+}  // namespace wrinkle

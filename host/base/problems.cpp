@@ -1,0 +1,24 @@
+#include "base/problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+std::string Problems::location(std::uint32_t line) const {
+    return line == 0 ? file_name_ : fmt::format("{}:{}", file_name_, line);
+}
+
+void Problems::throw_if_any() {
+    if (found_.empty()) return;
+    std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::string text;
+    for (const auto& [line, problem] : found_)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", location(line), problem);
+    throw Error(text);
+}
+
+}  // namespace wrinkle

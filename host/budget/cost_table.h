@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wrinkle/device.h"
+#include "wrinkle/precision.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle {
+
+/// What a variant of a layer was measured to cost and to err by.
+struct VariantCost {
+    double ns = 0;            ///< nanoseconds a pixel, of one unit (CostKind, scene/layer_kind.h)
+    double p99 = 0, max = 0;  ///< degrees, against double
+};
+
+/// The kind of positions and screen derivatives.
+inline const std::string kGeometryKind = "geometry";
+
+/// Measured costs and errors of one device.
+struct DeviceCosts {
+    std::string device_class;  ///< "cpu, 16 lanes"
+    std::string device, driver;
+    std::map<std::string, std::map<Precision, VariantCost>> kinds;
+
+    /// Nothing where it was not measured.
+    std::optional<VariantCost> find(const std::string& kind, Precision precision) const;
+};
+
+/// "cpu, 16 lanes": what devices have in common that cost about the same.
+std::string device_class(const DeviceInfo& info);
+
+/// The table that comes with wrinkle (kernels/precision.json), overlaid with what `wrinkle tune` measured on this very
+/// device. Devices of a class that was not measured take the nearest one's. Throws Error where a table is damaged.
+DeviceCosts costs_of(const DeviceInfo& info);
+
+/// Where `wrinkle tune` keeps its measurements; empty: no cache folder.
+std::filesystem::path user_costs_file();
+
+/// Tables of a file; none where there is no such file. Throws Error, naming the file, where it is damaged.
+std::vector<DeviceCosts> read_costs(const std::filesystem::path& file);
+/// Writes them, beside first.
+void write_costs(const std::filesystem::path& file, const std::vector<DeviceCosts>& tables);
+
+}  // namespace wrinkle

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "layers/common.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kFrame = 70, kCombine = 90;  // expected operations
+
+const char* combine_function(Combine combine) {
+    switch (combine) {
+        case Combine::whiteout:
+            return "wr_combine_whiteout";
+        case Combine::udn:
+            return "wr_combine_udn";
+        case Combine::linear:
+            return "wr_combine_linear";
+        default:
+            return "wr_combine_rnm";
+    }
+}
+
+/// Whether the layer goes by the planes of the renderer's tangents. They belong to the UV pass: its scale and offset do
+/// not turn them, a rotation would.
+bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
+    const Emitter& emitter = at.emitter;
+    const std::vector<std::string> tangent{"tangent.x", "tangent.y", "tangent.z"};
+    const bool fits = l.uv.source == UvSource::aov && l.uv.rotation == 0;
+    if (l.frame == TangentSource::planes) {
+        if (!fits)
+            throw Error(at.who +
+                        ": frame = \"tangents\" belongs to the UV pass as it is, without rotation; use \"derived\"");
+        emitter.need(at.who, tangent);
+        if (!emitter.has("tangent_sign"))
+            emitter.need(at.who + " (without tangent_sign)", {"bitangent.x", "bitangent.y", "bitangent.z"});
+        return true;
+    }
+    return l.frame == TangentSource::automatic && fits &&
+           std::ranges::all_of(tangent, [&](const auto& plane) { return emitter.has(plane); }) &&
+           (emitter.has("tangent_sign") || emitter.has("bitangent.z"));
+}
+
+/// Unit axis along which a planar mapping projects.
+Vec3 plane_axis(const UvMapping& uv) {
+    Vec3 axis{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        axis[i] = uv.axis_u[j] * uv.axis_v[k] - uv.axis_u[k] * uv.axis_v[j];
+    }
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    for (double& part : axis) part /= length;
+    return axis;
+}
+
+void read(scene::Table& table, Layer& layer) {
+    NormalMapLayer bump;
+    scene::read_texture_file(table, bump.texture);
+    scene::read_green(table, bump.texture);
+    scene::read_mapped(table, bump.texture, bump.uv);
+    table.choose("combine", bump.combine,
+                 {{"surface_gradient", Combine::surface_gradient},
+                  {"whiteout", Combine::whiteout},
+                  {"udn", Combine::udn},
+                  {"rnm", Combine::rnm},
+                  {"linear", Combine::linear}});
+    table.choose(
+        "frame", bump.frame,
+        {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"tangents", TangentSource::planes}});
+    if (bump.frame == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
+        table.complain("frame",
+                       "is \"tangents\", which belongs to the UV pass as it is: uv must not be planar or turn");
+    scene::read_weight(table, layer);
+    layer.bump = bump;
+}
+
+std::string emit(LayerText& at) {
+    const auto& l = std::get<NormalMapLayer>(at.layer.bump);
+    std::string text = at.textured(l.texture);
+    const bool planes = vertex_frame(at, l);
+    if (planes) {
+        at.section.reads.insert({"vertex_tb", "vertex_tb_valid"});
+        const std::size_t mirror = at.emitter.numbers(at.layer, "mirroring by uv", [](const Layer& layer, const auto&) {
+            const UvMapping& uv = own_uv(layer);
+            return std::vector<double>{uv.scale[0] < 0 ? -1.0 : 1.0, uv.scale[1] < 0 ? -1.0 : 1.0};
+        });
+        text += fmt::format(
+            "        slope.x *= numbers[{}], slope.y *= numbers[{}];\n"
+            "        m = vertex_tb_valid ? m : (wr_real)(0);\n",
+            mirror, mirror + 1);
+        at.section.operations += 8;
+    } else {
+        text += fmt::format("        wr_tangents f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
+        at.section.operations += kFrame;
+        if (l.uv.source == UvSource::planar)
+            text += fmt::format(
+                "        m = wr_has_planar_frame(n, {}) ? m : (wr_real)(0);\n",
+                at.vector("axis of the planar uv", [](const Layer& layer) { return plane_axis(own_uv(layer)); }));
+    }
+    const char* frame = planes ? "vertex_tb" : "f";
+    if (l.combine == Combine::surface_gradient)
+        return text + fmt::format("        g = wr_fma(wr_surface_gradient_from_tbn(slope, {}), m * {}, g);\n", frame,
+                                  at.strength());
+    at.section.operations += kCombine;
+    at.section.reads.insert("dh_dp");
+    return text + fmt::format(
+                      "        wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                      "        wr_vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (wr_real)({}));\n"
+                      "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
+                      frame, at.strength(), combine_function(l.combine));
+}
+
+constexpr const char* tangent_roles[] = {"uv", "tangent", "tangent_sign or bitangent"};
+constexpr LayerUse uses[] = {{"", layers::uv_role}, {"frame = \"tangents\"", tangent_roles}};
+
+}  // namespace
+
+const LayerKind& layers::normal_map() {
+    static constexpr LayerKind row{
+        .name = NormalMapLayer::kind, .read = read, .emit = emit, .uses = uses, .variants = layers::standard_and_exact};
+    return row;
+}
+
+}  // namespace wrinkle

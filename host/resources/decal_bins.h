@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "plan/plan.h"
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+struct FrameConstants;
+
+/// What the bins of one band hold; read back for reports and tests.
+struct BinReport {
+    std::uint32_t tiles = 0, touched = 0;  ///< of the frame; with a list that is not empty
+    std::uint32_t inherited = 0;           ///< that took a parent's list, for want of room
+    std::uint64_t entries = 0;             ///< of all tiles' lists
+    std::uint32_t longest = 0;
+    std::uint64_t bytes = 0;  ///< of tables, bounds and lists on the device
+};
+
+/// Bins the decals of a plan's tables to tiles of the frame, on the device, before the kernels that evaluate them:
+/// nothing is read back, so enqueueing never waits. kernels/bins says how.
+class DecalBins {
+public:
+    static constexpr std::uint32_t kTileWidth = 16, kTileHeight = 8;  ///< pixels; those of kernels/bins
+
+    DecalBins() = default;
+    DecalBins(const Device& device, const cl::Program& program, const Plan& plan, int lanes);
+
+    /// The decals as one camera sees them, and the buffer that kernels read them from.
+    void set_camera(const FrameConstants& constants, const Camera& camera, cl::Buffer projectors);
+
+    /// Bins for rows of the frame; `in` holds the planes, `in_first` pixels of other rows before them.
+    cl::Event enqueue(const cl::Buffer& frame, const cl::Buffer& numbers, const std::vector<cl::Buffer>& in,
+                      const Rows& rows, std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
+                      const std::vector<cl::Event>& wait);
+
+    /// Sets the arguments of a kernel that evaluates: projectors, lists, entries, super blocks a row.
+    void set_arguments(cl::Kernel& kernel, cl_uint& first) const;
+
+    /// The event after which the lists are free again.
+    void used_until(const cl::Event& event) { last_use_ = {event}; }
+
+    /// Lists of the rows enqueued last; blocks. `lists` gets, tile by tile in rows, the device's row numbers.
+    BinReport read(std::uint32_t width, std::uint32_t rows,
+                   std::vector<std::vector<std::uint32_t>>* lists = nullptr) const;
+
+    /// Entries that fit; 0: as many as the frame's tiles usually need. For tests.
+    void limit_entries(std::uint32_t entries) { limit_ = entries; }
+
+private:
+    void make_room(std::uint32_t supers);
+
+    Device device_;
+    std::uint32_t decals_ = 0, rooms_for_ = 0, capacity_ = 0, limit_ = 0, supers_a_row_ = 0, supers_ = 0;
+    std::size_t group_ = 1;
+    std::vector<std::uint32_t> numbers_;
+    cl::Kernel tiles_kernel_, parents_kernel_, supers_kernel_, lists_kernel_;
+    cl::Buffer projectors_, boxes_, bounds_, groups_, axes_;
+    std::array<cl::Buffer, 3> tile_bounds_, lists_;  ///< of tiles, blocks, super blocks
+    cl::Buffer entries_, hits_, used_;
+    std::vector<cl::Event> last_use_;
+    std::uint64_t table_bytes_ = 0, room_bytes_ = 0;
+    bool fp64_ = false;
+};
+
+}  // namespace wrinkle

@@ -1,0 +1,72 @@
+#include "resources/decal_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr float kNothing = 3e37f;        // kernels/bins: WR_BIN_NOTHING
+constexpr double kSlack = 1.00002;       // kernels/constants: WR_BIN_BOX_SLACK
+constexpr std::size_t kBoxNumbers = 16;  // kernels/bins: WR_BOX_NUMBERS
+
+Vec3 vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+/// Six planes of `count` bounds, all of them of nothing.
+std::vector<float> no_bounds(std::size_t count) {
+    std::vector<float> planes(6 * count, kNothing);
+    std::fill(planes.begin() + static_cast<std::ptrdiff_t>(3 * count), planes.end(), -kNothing);
+    return planes;
+}
+
+std::size_t sixteens(std::size_t count) { return (count + 15) / 16; }
+
+float narrow(double v) { return static_cast<float>(std::clamp(v, -3e38, 3e38)); }
+
+}  // namespace
+
+DecalBounds decal_bounds(const std::vector<wr_projector>& decals, const Camera& camera) {
+    DecalBounds out;
+    const auto row = [&](std::size_t i) { return Vec3{camera.view[i][0], camera.view[i][1], camera.view[i][2]}; };
+    const Vec3 right = normalize(row(0)), back = normalize(cross(right, row(1)));
+    const Vec3 down = cross(right, back);
+    out.axes = {right, down, {-back[0], -back[1], -back[2]}};
+
+    const std::size_t groups = sixteens(decals.size()), padded = 16 * groups, padded_groups = 16 * sixteens(groups);
+    out.boxes.resize(kBoxNumbers * padded);
+    out.bounds = no_bounds(padded);
+    out.groups = no_bounds(padded_groups);
+    for (std::size_t i = 0; i < decals.size(); ++i) {
+        const wr_projector& decal = decals[i];
+        const Vec3 center = vec(decal.center), rows[] = {vec(decal.to_box_x), vec(decal.to_box_y), vec(decal.to_box_z)};
+        if (rows[0] == Vec3{}) continue;  // touches nothing
+        float* box = out.boxes.data() + kBoxNumbers * i;
+        const double squares[] = {dot(rows[0], rows[0]), dot(rows[1], rows[1]), dot(rows[2], rows[2])};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double middle = dot(out.axes[k], center);
+            double reach = 0;
+            for (std::size_t r = 0; r < 3; ++r) {
+                const double along = dot(rows[r], out.axes[k]);
+                box[3 + 3 * r + k] = narrow(along);
+                reach += std::abs(along) / squares[r];
+            }
+            reach *= kSlack;
+            box[k] = narrow(middle);
+            box[12 + k] = narrow(reach);
+            const float low = narrow(middle - reach), high = narrow(middle + reach);
+            out.bounds[k * padded + i] = low;
+            out.bounds[(k + 3) * padded + i] = high;
+            float &group_low = out.groups[k * padded_groups + i / 16],
+                  &group_high = out.groups[(k + 3) * padded_groups + i / 16];
+            group_low = std::min(group_low, low);
+            group_high = std::max(group_high, high);
+        }
+        box[15] = static_cast<float>(decal.shape);
+    }
+    return out;
+}
+
+}  // namespace wrinkle

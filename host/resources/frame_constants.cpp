@@ -1,0 +1,185 @@
+#include "resources/frame_constants.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace wrinkle {
+
+namespace {
+
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 12 * sizeof(double) &&
+                  sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
+              "layout.h: members other than WR_SCALAR, or padding");
+
+void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }
+
+template <std::size_t n>
+void put_low(double (&to)[n], const double (&from)[n]) {
+    for (std::size_t k = 0; k < n; ++k) to[k] = from[k] - static_cast<double>(static_cast<float>(from[k]));
+}
+
+Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+
+/// Screen (x right, y down, pixels; depth as NDC z) to NDC.
+Mat4 ndc_from_screen(Size size) {
+    Mat4 m{};
+    m[0] = {2.0 / size.width, 0, 0, -1};
+    m[1] = {0, -2.0 / size.height, 0, 1};
+    m[2][2] = m[3][3] = 1;
+    return m;
+}
+
+wr_light fill_light(const Light& light, const Vec3& eye) {
+    wr_light out{};
+    out.kind = static_cast<double>(light.kind);
+    put(out.color, scaled(light.color, light.intensity));
+    put(out.position, subtract(light.position, eye));
+    put(out.to_light, scaled(normalize(light.direction), -1));
+    out.cos_outer = std::cos(light.outer_angle);
+    out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
+    return out;
+}
+
+Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_world[2][3]}; }
+
+}  // namespace
+
+void split_constants(wr_camera& frame) {
+    put_low(frame.d0_low, frame.d0), put_low(frame.dx_low, frame.dx), put_low(frame.dy_low, frame.dy);
+    put_low(frame.c0_low, frame.c0), put_low(frame.c1_low, frame.c1), put_low(frame.c2_low, frame.c2);
+    put_low(frame.c3_low, frame.c3), put_low(frame.w_low, frame.w);
+}
+
+wr_camera camera_constants(const Camera& camera, Size size) {
+    const Mat4 to_world = inverse(camera.view);
+    const Vec3 eye = eye_of(to_world);
+    wr_camera frame{};
+    frame.width = size.width;
+    frame.height = size.height;
+    for (std::size_t k = 0; k < 3; ++k) {
+        frame.eye_high[k] = static_cast<float>(eye[k]);
+        frame.eye_low[k] = eye[k] - frame.eye_high[k];
+        frame.forward[k] = -to_world[k][2];
+    }
+    put(frame.forward, normalize({frame.forward[0], frame.forward[1], frame.forward[2]}));
+    if (const auto rays = pinhole_rays(camera, size)) {
+        put(frame.d0, rays->d0);
+        put(frame.dx, rays->dx);
+        put(frame.dy, rays->dy);
+        put(frame.dx_cross_d0, cross(rays->dx, rays->d0));
+        put(frame.dx_cross_dy, cross(rays->dx, rays->dy));
+        put(frame.dy_cross_d0, cross(rays->dy, rays->d0));
+        put(frame.dy_cross_dx, cross(rays->dy, rays->dx));
+    }
+    const Mat4 inverse_vps = multiply(inverse(multiply(camera.proj, camera.view)), ndc_from_screen(size));
+    double(*const columns[])[3] = {&frame.c0, &frame.c1, &frame.c2, &frame.c3};
+    for (std::size_t i = 0; i < 4; ++i) {
+        frame.w[i] = inverse_vps[3][i];
+        for (std::size_t k = 0; k < 3; ++k) (*columns[i])[k] = inverse_vps[k][i] - eye[k] * frame.w[i];
+    }
+    // A parallel projection: the rays' direction, which a sheared one has off the camera's axis, per unit of view
+    // depth; and pixel (x, y) at view depth 0: the column sum, moved along the ray.
+    if (frame.w[0] == 0 && frame.w[1] == 0 && frame.w[2] == 0) {
+        const Vec3 axis{frame.forward[0], frame.forward[1], frame.forward[2]},
+            ray{frame.c2[0], frame.c2[1], frame.c2[2]};
+        const Vec3 forward = scaled(ray, 1 / dot(ray, axis));
+        put(frame.forward, forward);
+        const auto flat = [&](const double(&c)[3]) {
+            const Vec3 v = scaled({c[0], c[1], c[2]}, 1 / frame.w[3]);
+            return subtract(v, scaled(forward, dot(v, axis)));
+        };
+        put(frame.d0, flat(frame.c3));
+        put(frame.dx, flat(frame.c0));
+        put(frame.dy, flat(frame.c1));
+    }
+    split_constants(frame);
+    return frame;
+}
+
+wr_projector projector_constants(const Projector& row, const ProjectedImage& image, double scale, const Vec3& eye) {
+    wr_projector out{};
+    put(out.center, subtract(row.center, eye));
+    // Below this a half size has no reciprocal in float: such a decal covers no pixel, so it contributes nothing.
+    constexpr double kLeast = 1e-36;
+    if (!(std::min({row.half_size[0], row.half_size[1], row.half_size[2]}) > kLeast)) return out;
+    const Vec3 x = normalize(row.axis_x);
+    const Vec3 y = normalize(subtract(row.axis_y, scaled(x, dot(x, row.axis_y))));
+    put(out.to_box_x, scaled(x, 1 / row.half_size[0]));
+    put(out.to_box_y, scaled(y, 1 / row.half_size[1]));
+    put(out.to_box_z, scaled(cross(x, y), 1 / row.half_size[2]));
+    scale *= row.scale;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double repeat = row.wrap == Wrap::repeat ? row.repeat[k] : 1;
+        out.repeat[k] = repeat;
+        out.strength[k] = image.height ? scale / 2 * repeat : scale * row.half_size[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) out.falloff[k] = row.falloff[k] > 0 ? 1 / row.falloff[k] : 0;
+    const double slope = 1 / std::max(row.angle_fade[1] - row.angle_fade[0], 1e-6);  // equal angles: as good as a step
+    out.fade_slope = slope * row.half_size[2];
+    out.fade_zero = slope * row.angle_fade[0];
+    out.two_sided = row.two_sided ? 1 : 0;
+    out.shape = static_cast<double>(row.shape);
+    out.per_size = row.shape == ProjectorShape::cone && image.height ? 1 : 0;
+    out.texture = image.texture;
+    out.tile = row.wrap == Wrap::repeat ? 1 : 0;
+    out.opacity = row.opacity;
+    out.replace = row.mode == ProjectorMode::replace ? 1 : 0;
+    return out;
+}
+
+/// Row `index` of a planned table, with its mask.
+wr_projector masked_projector(const PlannedDecals& table, std::size_t index, double scale, const Vec3& eye) {
+    const Projector& row = (*table.rows)[index];
+    wr_projector out = projector_constants(row, table.images[index], scale, eye);
+    if (row.object) {
+        out.mask = 1;
+        out.object = *row.object;
+    }
+    if (!row.cryptomatte.empty()) {
+        out.mask = 2;
+        out.object = table.hashes[index] >> 16;
+        out.object_low = table.hashes[index] & 0xffff;
+    }
+    return out;
+}
+
+FrameConstants frame_constants(const Plan& plan, const NumberSource& source, const Camera& camera, Size size) {
+    const Vec3 eye = eye_of(inverse(camera.view));
+    const std::vector<Layer>& layers = source.scene.layers;
+    FrameConstants out;
+    out.frame = camera_constants(camera, size);
+    for (const PlannedNumbers& planned : plan.numbers)
+        for (const double value : numbers_of(planned, source)) out.numbers.push_back(value);
+    for (const PlannedOrigin& planned : plan.origins) {
+        const Origin origin = planned(source);
+        const auto add = [&](double value) {
+            out.origins.push_back(origin.low ? value - static_cast<float>(value) : value);
+        };
+        for (std::size_t k = 0; k < 3; ++k) {
+            double value = dot(origin.axes[k], eye) + origin.offset[k];
+            if (const double period = origin.period[k]; period > 0) value -= period * std::floor(value / period);
+            add(value);
+        }
+        add(origin.fourth);
+    }
+    for (const PlannedDecal& decal : plan.decals) {
+        const Layer& layer = layers.at(decal.layer);
+        out.decals.push_back(projector_constants(decal.row(layer), decal.image, signed_scale(layer), eye));
+    }
+    for (const PlannedDecals& table : plan.tables)
+        for (const std::uint32_t row : table.order)
+            out.projectors.push_back(masked_projector(table, row, signed_scale(layers.at(table.layer)), eye));
+    const Lighting& lighting = source.scene.lighting;
+    for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
+    put(out.lighting.ambient, lighting.ambient);
+    put(out.lighting.albedo, lighting.albedo);
+    out.lighting.roughness = lighting.roughness;
+    out.lighting.f0 = lighting.f0;
+    out.lighting.max_ratio = lighting.max_ratio;
+    out.lighting.lights = static_cast<double>(lighting.lights.size());
+    return out;
+}
+
+}  // namespace wrinkle

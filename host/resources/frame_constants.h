@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "plan/plan.h"
+
+#ifndef WR_SCALAR
+#define WR_SCALAR double
+#endif
+#include "layout.h"
+
+namespace wrinkle {
+
+/// Everything kernels read that depends on the camera or is a number of the scene, in double; positions relative to the
+/// eye.
+struct FrameConstants {
+    wr_camera frame{};
+    std::vector<double> numbers;  ///< of the scene, as planned
+    std::vector<double> origins;  ///< 4 numbers an origin
+    std::vector<wr_projector> decals;
+    std::vector<wr_projector> projectors;  ///< of all tables, in the order of evaluation
+    wr_lighting lighting{};
+    std::vector<wr_light> lights;
+};
+
+/// The frame as kernels read it.
+wr_camera camera_constants(const Camera& camera, Size size);
+
+/// Sets the ..._low of a frame that is otherwise complete.
+void split_constants(wr_camera& frame);
+
+/// A projector as kernels read it, without its masks; `scale` is signed.
+wr_projector projector_constants(const Projector& row, const ProjectedImage& image, double scale, const Vec3& eye);
+
+/// Everything of a plan, with the numbers of a scene of the planned structure. Throws Error, naming a number that is
+/// not finite.
+FrameConstants frame_constants(const Plan& plan, const NumberSource& source, const Camera& camera, Size size);
+
+}  // namespace wrinkle

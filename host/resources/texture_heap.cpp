@@ -1,0 +1,174 @@
+#include "resources/texture_heap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "io/volume_file.h"
+#include "resources/volume_heap.h"
+#include "wrinkle/error.h"
+
+#define WR_SCALAR double
+#include "layout.h"
+
+namespace wrinkle {
+
+namespace {
+
+int wrapped(int i, int size, Wrap wrap) {
+    return wrap == Wrap::clamp ? std::clamp(i, 0, size - 1) : ((i % size) + size) % size;
+}
+
+/// The next coarser level: means of 2x2 texels.
+Image half(const Image& fine) {
+    Image coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), fine.channels, {}};
+    for (int y = 0; y < coarse.height; ++y)
+        for (int x = 0; x < coarse.width; ++x)
+            for (int c = 0; c < coarse.channels; ++c) {
+                const int x1 = std::min(2 * x + 1, fine.width - 1), y1 = std::min(2 * y + 1, fine.height - 1);
+                coarse.texels.push_back(0.25f * (fine.at(2 * x, 2 * y, c) + fine.at(x1, 2 * y, c) +
+                                                 fine.at(2 * x, y1, c) + fine.at(x1, y1, c)));
+            }
+    return coarse;
+}
+
+/// Appends the slopes per unit of texture coordinate of a level of heights, with a border of one texel: the derivative
+/// matrix D against the smoothing matrix B of [Mik20 eq. 20, 21], at texel centres. The border's slopes are those of
+/// the heights as they wrap: beyond a clamped edge there is none across it.
+void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
+    for (int y = -1; y <= h.height; ++y) {
+        const int down = wrapped(y - 1, h.height, wrap), up = wrapped(y + 1, h.height, wrap);
+        const int middle = wrapped(y, h.height, wrap);
+        for (int x = -1; x <= h.width; ++x) {
+            const int left = wrapped(x - 1, h.width, wrap), right = wrapped(x + 1, h.width, wrap);
+            const int here = wrapped(x, h.width, wrap);
+            const double s = (h.at(right, down, 0) - h.at(left, down, 0)) +
+                             2.0 * (h.at(right, middle, 0) - h.at(left, middle, 0)) +
+                             (h.at(right, up, 0) - h.at(left, up, 0));
+            const double t = (h.at(left, up, 0) - h.at(left, down, 0)) +
+                             2.0 * (h.at(here, up, 0) - h.at(here, down, 0)) +
+                             (h.at(right, up, 0) - h.at(right, down, 0));
+            heap.texels.push_back(static_cast<float>(s / 8 * h.width));
+            heap.texels.push_back(static_cast<float>(t / 8 * h.height));
+        }
+    }
+}
+
+bool is_whole(const PlannedTexture& planned) { return planned.region == std::array<double, 4>{0, 0, 1, 1}; }
+
+/// The texels of a region, whole ones, at least one each way.
+Image cropped(const Image& image, const std::array<double, 4>& region) {
+    const auto range = [](double from, double to, int size) {
+        const int first = std::clamp(static_cast<int>(std::lround(from * size)), 0, size - 1);
+        return std::pair{first, std::clamp(static_cast<int>(std::lround(to * size)), first + 1, size)};
+    };
+    const auto [left, right] = range(region[0], region[2], image.width);
+    const auto [bottom, top] = range(region[1], region[3], image.height);
+    Image out{right - left, top - bottom, image.channels, {}};
+    for (int y = bottom; y < top; ++y)
+        for (int x = left; x < right; ++x)
+            for (int c = 0; c < image.channels; ++c) out.texels.push_back(image.at(x, y, c));
+    return out;
+}
+
+/// Slopes of tangent-space normals [Mik20 listing 2]; m = 0 is flat.
+Image slopes_of_normals(const Image& image, bool y_down) {
+    Image slopes{image.width, image.height, 2, {}};
+    for (std::size_t i = 0; i + 3 <= image.texels.size(); i += 3) {
+        const double x = 2.0 * image.texels[i] - 1, y = (y_down ? -1 : 1) * (2.0 * image.texels[i + 1] - 1);
+        const double z = std::abs(2.0 * image.texels[i + 2] - 1);
+        const double size = std::max(z, std::max(std::abs(x), std::abs(y)) / 128);
+        slopes.texels.push_back(size > 0 ? static_cast<float>(-x / size) : 0.0f);
+        slopes.texels.push_back(size > 0 ? static_cast<float>(-y / size) : 0.0f);
+    }
+    return slopes;
+}
+
+/// The t slopes change their sign.
+Image turned_down(Image slopes) {
+    for (std::size_t i = 1; i < slopes.texels.size(); i += 2) slopes.texels[i] = -slopes.texels[i];
+    return slopes;
+}
+
+/// Appends a level with its border of one texel. Three channels take four floats, so that a texel is one load.
+void append(TextureHeap& heap, const Image& level, Wrap wrap) {
+    for (int y = -1; y <= level.height; ++y)
+        for (int x = -1; x <= level.width; ++x) {
+            for (int c = 0; c < level.channels; ++c)
+                heap.texels.push_back(level.at(wrapped(x, level.width, wrap), wrapped(y, level.height, wrap), c));
+            if (level.channels == 3) heap.texels.push_back(0);
+        }
+}
+
+/// The finest level as it is filtered.
+Image finest_level(const Image& image, const TextureUse& use) {
+    if (use.content == Content::normal) return slopes_of_normals(image, use.y_down);
+    return use.content == Content::slope && use.y_down ? turned_down(image) : image;
+}
+
+}  // namespace
+
+void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
+    const bool sobel = planned.kind == TexelKind::slope && planned.use.content == Content::height;
+    Image level = finest_level(is_whole(planned) ? image : cropped(image, planned.region), planned.use);
+    const std::size_t words = heap.table.size();
+    heap.table.resize(words + WR_TEXTURE_WORDS);
+    heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
+    heap.table[words + WR_TEXTURE_HEIGHT] = static_cast<std::uint32_t>(level.height);
+    std::uint32_t count = 0;
+    for (; count < WR_MAX_LEVELS; ++count) {
+        heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
+        if (sobel)
+            append_slopes(heap, level, planned.use.wrap);
+        else
+            append(heap, level, planned.use.wrap);
+        if (level.width == 1 && level.height == 1) {
+            ++count;
+            break;
+        }
+        level = half(level);
+    }
+    heap.table[words + WR_TEXTURE_LEVELS] = count;
+    if (heap.texels.size() > (std::size_t{1} << 31) - 1)
+        throw Error(fmt::format("{}: the textures of this scene exceed 8 GiB together", planned.use.file.string()));
+}
+
+TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
+    TextureHeap heap;
+    std::map<std::pair<std::filesystem::path, Content>, Image> atlases;  // files of which only regions are used
+    const auto load = [&](const PlannedTexture& texture) {
+        if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
+            add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
+        } else if (is_whole(texture)) {
+            add_texture(heap, load_bump(texture.use), texture);
+        } else {
+            const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, texture.use.content});
+            if (is_new) atlas->second = load_bump(texture.use);
+            add_texture(heap, atlas->second, texture);
+        }
+    };
+    for (const PlannedTexture& texture : planned) {
+        try {
+            load(texture);
+        } catch (const Error& error) {
+            if (texture.layer.empty()) throw;
+            throw Error(fmt::format("{}: {}", texture.layer, error.what()));
+        }
+    }
+    heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
+    return heap;
+}
+
+void check_fits(const TextureHeap& heap, const DeviceInfo& device) {
+    const std::size_t bytes = heap.texels.size() * sizeof(float);
+    if (bytes <= device.largest_buffer) return;
+    const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) / (1 << 20); };
+    throw Error(fmt::format(
+        "the textures and volumes take {:.1f} MiB together; {} allows {:.1f} MiB in one buffer: use smaller "
+        "ones (crop or resample grids), or another device",
+        megabytes(bytes), device.name, megabytes(device.largest_buffer)));
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,61 @@
+#include "run/open_frame.h"
+
+#include <fmt/format.h>
+
+#include "io/frame_path.h"
+#include "layers/kinds.h"
+#include "plan/section.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+/// Hashes of every Cryptomatte name that a scene's masks and decals use, and of those the file lists.
+std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, const GBufferReader& reader) {
+    std::map<std::string, std::uint32_t> hashes;
+    for (const std::string& name : reader.cryptomatte().names()) hashes.emplace(name, reader.cryptomatte().id(name));
+    if (!reader.has_role("cryptomatte")) return hashes;
+    const auto add = [&](const std::string& name, const auto& who) {
+        if (name.empty() || hashes.contains(name)) return;
+        try {
+            hashes.emplace(name, reader.cryptomatte().id(name));
+        } catch (const Error& error) { throw Error(fmt::format("{}: {}", who(), error.what())); }
+    };
+    for (const Layer& layer : scene.layers) {
+        if (layer.mask.cryptomatte) add(*layer.mask.cryptomatte, [&] { return layer_label(layer); });
+        const LayerKind& kind = kind_of(layer_kinds(), layer);
+        if (!kind.objects) continue;
+        for (const NamedObject& object : kind.objects(layer))
+            add(object.cryptomatte, [&] { return layer_label(layer) + ": " + object.place; });
+    }
+    return hashes;
+}
+
+}  // namespace
+
+Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera) {
+    if (reader.roles().screen_space_normals)
+        throw Error(
+            fmt::format("{}: its normals ({}) are in camera space; render world-space normals and name them in "
+                        "[gbuffer] roles",
+                        reader.path().string(), reader.roles().channel_of.at("normal.x")));
+    Frame frame{.size = reader.size(), .camera = camera.camera, .planes = {}, .ray_depth = false, .cryptomatte = {}};
+    for (const std::string& plane : reader.planes()) frame.planes.insert(plane);
+    for (const std::string& channel : reader.channels()) frame.planes.insert("channel:" + channel);
+    frame.ray_depth = camera.depth.value_or(reader.roles().depth) == DepthKind::ray;
+    if (scene.gbuffer.depth != DepthKind::automatic) frame.ray_depth = scene.gbuffer.depth == DepthKind::ray;
+    frame.cryptomatte = cryptomatte_hashes(scene, reader);
+    return frame;
+}
+
+GBufferReader open_frame(const Scene& scene, int frame) {
+    return GBufferReader(frame_path(scene.gbuffer.file, frame), scene.gbuffer);
+}
+
+Frame describe_frame(const Scene& scene, int frame) {
+    const GBufferReader reader = open_frame(scene, frame);
+    return frame_of(scene, reader, read_frame_camera(scene.camera, reader, frame));
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "io/camera_file.h"
+#include "io/gbuffer_reader.h"
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+/// Opens the scene's G-buffer; `number` fills in a frame pattern. Throws Error.
+GBufferReader open_frame(const Scene& scene, int number);
+
+/// What a plan may count on in an open frame, and the ids of every Cryptomatte name that the scene or the file has.
+/// Throws Error naming the layer whose name has no id, or the normals that are not in world space.
+Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera);
+
+/// The same of a frame of the scene, without reading pixels. Throws Error.
+Frame describe_frame(const Scene& scene, int number = 0);
+
+}  // namespace wrinkle

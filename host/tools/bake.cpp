@@ -1,0 +1,190 @@
+#include "tools/bake.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec.h"
+#include "wrinkle/error.h"
+#include "wrinkle/functions.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kGoldenRadius = 5.3, kMarchRadius = 5.2;
+/// Largest |gradient| of the golden-ratio function: its value over this is a distance nobody is nearer than.
+constexpr double kGoldenLipschitz = 6.2;
+
+using Column = std::vector<double>;
+
+/// Points, and what a function of points gives there.
+struct Field {
+    Column x, y, z;
+    Column value, gx, gy, gz;
+
+    std::size_t size() const { return x.size(); }
+    void add(const Vec3& p) { x.push_back(p[0]), y.push_back(p[1]), z.push_back(p[2]); }
+    Vec3 point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    Vec3 gradient(std::size_t i) const { return {gx[i], gy[i], gz[i]}; }
+
+    void evaluate(const Device& device, const char* name) {
+        for (Column* c : {&value, &gx, &gy, &gz}) c->resize(size());
+        evaluate_function(
+            device, function(name), ColumnsInDouble{{"p.x", x}, {"p.y", y}, {"p.z", z}},
+            ColumnResultsInDouble{{"value", value}, {"gradient.x", gx}, {"gradient.y", gy}, {"gradient.z", gz}});
+    }
+};
+
+/// A cube of voxels whose indices are centred on the origin, or start there.
+DenseVolume cube(int size, double voxel, bool centred) {
+    DenseVolume volume;
+    const int first = centred ? -size / 2 : 0;
+    volume.first = {first, first, first}, volume.size = {size, size, size};
+    for (std::size_t k = 0; k < 3; ++k) volume.world_from_index[k][k] = voxel;
+    volume.world_from_index[3][3] = 1;
+    return volume;
+}
+
+/// World positions of its voxels.
+Field voxels_of(const DenseVolume& volume) {
+    Field field;
+    for (int z = 0; z < volume.size[2]; ++z)
+        for (int y = 0; y < volume.size[1]; ++y)
+            for (int x = 0; x < volume.size[0]; ++x)
+                field.add({(volume.first[0] + x) * volume.world_from_index[0][0],
+                           (volume.first[1] + y) * volume.world_from_index[1][1],
+                           (volume.first[2] + z) * volume.world_from_index[2][2]});
+    return field;
+}
+
+DenseVolume bake_noise(const Device& device, int size) {
+    constexpr double kCells = 5, kOctaves = 3;  // cells along an edge in the first octave
+    DenseVolume volume = cube(size, 1.0 / size, false);
+    const Field points = voxels_of(volume);
+    volume.values.assign(points.size(), 0);
+    double frequency = kCells, amplitude = 1;
+    for (int i = 0; i < kOctaves; ++i, frequency *= 2, amplitude /= 2) {
+        Field lattice;
+        for (std::size_t k = 0; k < points.size(); ++k)
+            lattice.add({points.x[k] * frequency, points.y[k] * frequency, points.z[k] * frequency});
+        lattice.evaluate(device, "perlin_noise");
+        for (std::size_t k = 0; k < points.size(); ++k)
+            volume.values[k] += static_cast<float>(amplitude * lattice.value[k]);
+    }
+    for (float& v : volume.values) v = std::clamp(v, 0.0f, 1.0f);
+    return volume;
+}
+
+/// Nearest points of the surface: along the gradient onto it, then along it towards where the search began.
+Field nearest(const Device& device, const Field& from) {
+    Field to = from;
+    for (int step = 0; step < 12; ++step) {
+        to.evaluate(device, "golden_ratio");
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const Vec3 g = to.gradient(i), away = subtract(from.point(i), to.point(i));
+            const double square = std::max(dot(g, g), 1e-3), normal = dot(g, away) / square;
+            const double down = to.value[i] / square;
+            to.x[i] += away[0] - (normal + down) * g[0];
+            to.y[i] += away[1] - (normal + down) * g[1];
+            to.z[i] += away[2] - (normal + down) * g[2];
+        }
+    }
+    return to;
+}
+
+DenseVolume bake_golden(const Device& device, int size) {
+    const double voxel = 2 * kGoldenRadius / (size - 1);
+    DenseVolume volume = cube(size, voxel, true);
+    volume.grid = "golden";
+    volume.level_set = true, volume.half = true;
+    volume.background = static_cast<float>(3 * voxel);
+    Field all = voxels_of(volume);
+    all.evaluate(device, "golden_ratio");
+    Field band;
+    std::vector<std::size_t> places;
+    volume.values.assign(all.size(), volume.background);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (std::hypot(all.x[i], all.y[i], all.z[i]) > kGoldenRadius) continue;
+        if (all.value[i] < 0) volume.values[i] = -volume.background;
+        if (std::abs(all.value[i]) >= kGoldenLipschitz * volume.background) continue;
+        band.add(all.point(i));
+        places.push_back(i);
+    }
+    const Field surface = nearest(device, band);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const Vec3 d = subtract(band.point(k), surface.point(k));
+        const auto distance = static_cast<float>(std::hypot(d[0], d[1], d[2]));
+        float& v = volume.values[places[k]];
+        v = std::copysign(std::min(distance, volume.background), v);
+    }
+    return volume;
+}
+
+DenseVolume bake_golden_gradient(const Device& device, int size) {
+    DenseVolume volume = cube(size, 2 * kGoldenRadius / (size - 1), true);
+    volume.grid = "gradient";
+    volume.channels = 3, volume.half = true;
+    Field all = voxels_of(volume);
+    all.evaluate(device, "golden_ratio");
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const Column* c : {&all.gx, &all.gy, &all.gz}) volume.values.push_back(static_cast<float>((*c)[i]));
+    return volume;
+}
+
+}  // namespace
+
+DenseVolume bake_volume(const Device& device, BakedVolume kind, int size) {
+    if (!device.info.fp64) throw Error("baking needs a device with double precision; see \"wrinkle devices\"");
+    switch (kind) {
+        case BakedVolume::noise:
+            return bake_noise(device, size);
+        case BakedVolume::golden:
+            return bake_golden(device, size);
+        case BakedVolume::golden_gradient:
+            break;
+    }
+    return bake_golden_gradient(device, size);
+}
+
+std::map<std::string, std::vector<float>> bake_golden_frame(const Device& device, const Camera& camera, Size size) {
+    if (!device.info.fp64) throw Error("baking needs a device with double precision; see \"wrinkle devices\"");
+    const auto rays = pinhole_rays(camera, size);
+    if (!rays) throw Error("a baked frame needs a pinhole camera");
+    const std::size_t pixels = std::size_t{size.width} * size.height;
+    Field directions;
+    Column lengths, distance(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const double x = static_cast<double>(i % size.width) + 0.5, y = static_cast<double>(i / size.width) + 0.5;
+        Vec3 d;
+        for (std::size_t k = 0; k < 3; ++k) d[k] = rays->d0[k] + x * rays->dx[k] + y * rays->dy[k];
+        lengths.push_back(std::hypot(d[0], d[1], d[2]));
+        directions.add(normalize(d));
+    }
+    const Column eye[] = {Column(pixels, rays->eye[0]), Column(pixels, rays->eye[1]), Column(pixels, rays->eye[2])};
+    evaluate_function(device, function("golden_march"),
+                      ColumnsInDouble{{"eye.x", eye[0]},
+                                      {"eye.y", eye[1]},
+                                      {"eye.z", eye[2]},
+                                      {"ray.x", directions.x},
+                                      {"ray.y", directions.y},
+                                      {"ray.z", directions.z}},
+                      ColumnResultsInDouble{{"distance", distance}},
+                      {.settings = {{"radius", std::vector<double>{kMarchRadius}}}});
+    Field surface;
+    for (std::size_t i = 0; i < pixels; ++i)
+        surface.add({rays->eye[0] + distance[i] * directions.x[i], rays->eye[1] + distance[i] * directions.y[i],
+                     rays->eye[2] + distance[i] * directions.z[i]});
+    surface.evaluate(device, "golden_ratio");
+    std::map<std::string, std::vector<float>> planes;
+    const auto put = [&](const char* name, double value) { planes[name].push_back(static_cast<float>(value)); };
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const bool hit = distance[i] > 0;
+        const Vec3 p = hit ? surface.point(i) : Vec3{}, n = hit ? normalize(surface.gradient(i)) : Vec3{};
+        put("depth", hit ? distance[i] / lengths[i] : 1e10);
+        put("position.x", p[0]), put("position.y", p[1]), put("position.z", p[2]);
+        put("normal.x", n[0]), put("normal.y", n[1]), put("normal.z", n[2]);
+    }
+    return planes;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,158 @@
+#include "tools/render.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "budget/error_sample.h"
+#include "device/guarded.h"
+#include "layers/kinds.h"
+#include "run/condition.h"
+#include "run/frame_run.h"
+#include "run/open_frame.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+/// Makes the passes of a run, and keeps the last one while frames fit it.
+class Passes {
+public:
+    Passes(const Device& device, const Scene& scene, PhaseClock& clock, RenderReport& report)
+        : device_(device), scene_(scene), clock_(clock), report_(report) {}
+
+    Pass& get(const Frame& frame, const PassOptions& options) {
+        if (pass_ && same_shape(frame, built_for_) && options.fp64 == built_with_.fp64 &&
+            options.precision == built_with_.precision) {
+            pass_->set_camera(frame.camera);
+            return *pass_;
+        }
+        pass_.emplace(clock_.measure(PhaseClock::build, [&] { return evaluate(device_, scene_, frame, options); }));
+        report_.upload += pass_->impl().texture_seconds;
+        report_.cache_hit = pass_->impl().built.source == BuildSource::disk;
+        built_for_ = frame, built_with_ = options;
+        return *pass_;
+    }
+
+private:
+    const Device& device_;
+    const Scene& scene_;
+    PhaseClock& clock_;
+    RenderReport& report_;
+    std::optional<Pass> pass_;
+    Frame built_for_;
+    PassOptions built_with_;
+};
+
+/// A budget with what measures it on the frames of one shape.
+struct KeptBudget {
+    Budget budget;
+    ErrorSample sample;
+};
+
+PrecisionChoice everything_in(Precision precision, std::size_t layers) {
+    if (precision == Precision::fp64) return {.fp64 = true};
+    return {.precision = {precision, std::vector(layers, precision)}};
+}
+
+PassOptions options_of(const PrecisionChoice& choice) {
+    PassOptions options{.fp64 = choice.fp64};
+    if (!choice.fp64) options.precision = choice.precision;
+    return options;
+}
+
+RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
+    RenderReport report;
+    PhaseClock clock;
+    const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
+    const Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
+    Passes passes(device, scene, clock, report);
+    std::optional<KeptBudget> kept;
+    std::optional<Condition> condition;
+    Frame condition_for;
+    MaskMatches matches(scene);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        GBufferReader reader = clock.measure(PhaseClock::read, [&] { return open_frame(scene, frames[f]); });
+        const FrameCamera camera = clock.measure(PhaseClock::read, [&] {
+            FrameCamera found = read_frame_camera(scene.camera, reader, frames[f]);
+            check_residual(found, scene.camera.max_residual, reader);
+            return found;
+        });
+        report.cameras.push_back(camera.residual ? fmt::format("{}; positions reproject within {:.3g} pixel (median)",
+                                                               camera.origin, camera.residual->median)
+                                                 : fmt::format("{}; no positions to check it against", camera.origin));
+        const Frame frame = frame_of(scene, reader, camera);
+        matches.begin(frame);
+        if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
+            kept.emplace(clock.measure(PhaseClock::build, [&] {
+                return KeptBudget{Budget(scene, camera_kind(frame.camera, frame.size), costs_of(device.info)),
+                                  ErrorSample(device, scene, frame, scene.budget)};
+            }));
+        if (scene.output.condition) {
+            if (!condition || !same_shape(frame, condition_for))
+                condition.emplace(clock.measure(PhaseClock::build, [&] { return Condition(device, scene, frame); }));
+            condition_for = frame;
+            condition->set_camera(frame.camera);
+        }
+        std::optional<int> number;
+        if (!options.frames.empty()) number = frames[f];
+        const auto evaluated = [&](const PassOptions& how, FrameOutputs* outputs) {
+            Pass& pass = passes.get(frame, how);
+            FrameRun run(pass.impl(), reader, clock);
+            run.match_masks(matches);
+            if (outputs != nullptr) {
+                run.write_to(*outputs);
+                if (condition) run.add_condition(*condition);
+                run.repeat(options.repeat);
+            }
+            if (kept) run.check_bands(kept->sample, frame.camera);
+            const double seconds = run.run([&](double share) {
+                if (options.progress && outputs != nullptr)
+                    options.progress((static_cast<double>(f) + share) / static_cast<double>(frames.size()));
+            });
+            clock.measure(PhaseClock::build, [&] { pass.impl().save(); });
+            return seconds;
+        };
+        for (bool done = false; !done;) {
+            const PassOptions how =
+                options_of(kept ? kept->budget.choice() : everything_in(options.precision, scene.layers.size()));
+            FrameOutputs outputs(scene, passes.get(frame, how).impl(), reader, options.directory, number);
+            const double seconds = evaluated(how, &outputs);
+            done = !kept || kept->budget.accept(kept->sample.stats());
+            if (done) {
+                report.kernels += seconds;
+                clock.measure(PhaseClock::write, [&] { outputs.finish(report.files); });
+            } else {
+                kept->budget.raise(kept->sample.stats(), [&](const PrecisionChoice& choice) {
+                    evaluated(options_of(choice), nullptr);
+                    return kept->sample.stats();
+                });
+            }
+        }
+        report.pixels += std::uint64_t{frame.size.width} * frame.size.height;
+        ++report.frames;
+    }
+    report.warnings = matches.warnings();
+    if (kept) report.budget = kept->budget.report();
+    report.device = device.info;
+    for (const Layer& layer : scene.layers) report.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
+    report.read = clock.seconds(PhaseClock::read);
+    report.build = clock.seconds(PhaseClock::build) - report.upload;
+    report.write = clock.seconds(PhaseClock::write);
+    report.check = clock.seconds(PhaseClock::check);
+    report.kernel_ns_per_pixel = report.kernels / static_cast<double>(report.pixels) * 1e9;
+    report.outside = clock.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
+    report.wall = clock.wall();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    report.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    return report;
+}
+
+}  // namespace
+
+RenderReport render(const Scene& scene, const RenderOptions& options) {
+    return guarded("render", [&] { return render_frames(scene, options); });
+}
+
+}  // namespace wrinkle

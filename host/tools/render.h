@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "budget/budget.h"
+#include "wrinkle/passes.h"
+
+namespace wrinkle {
+
+struct RenderOptions {
+    std::filesystem::path directory = "out";
+    std::vector<int> frames;  ///< empty: the scene's file as it is
+    std::string device;
+    int repeat = 1;                             ///< enqueue the kernels this often, to time them
+    Precision precision = Precision::standard;  ///< of everything, where the scene has no error budget
+    /// Called with the share of the work done, [0,1].
+    std::function<void(double)> progress;
+};
+
+/// What `wrinkle run` reports of a run.
+struct RenderReport {
+    std::uint64_t pixels = 0;
+    int layers = 0, frames = 0;
+    DeviceInfo device;
+    bool cache_hit = false;
+    double read = 0, upload = 0, build = 0, kernels = 0, check = 0, write = 0;  ///< seconds; phases overlap
+    double wall = 0, outside = 0;  ///< seconds; outside: of the wall time, not in reading, kernels or writing
+    double kernel_ns_per_pixel = 0;
+    std::uint64_t peak_memory = 0;  ///< bytes
+    std::vector<std::filesystem::path> files;
+    std::vector<std::string> cameras;  ///< a line a frame: origin and residual
+    std::optional<BudgetReport> budget;
+    std::vector<std::string> warnings;  ///< of layers whose masks no pixel matches
+};
+
+/// Runs a scene over its frames: reads bands of rows, evaluates, writes, overlapped. Memory does not grow with the
+/// frame. Nothing is written unless a frame succeeds in full. Throws Error.
+RenderReport render(const Scene& scene, const RenderOptions& options);
+
+}  // namespace wrinkle
