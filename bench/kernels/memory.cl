@@ -1,4 +1,5 @@
-// Ceilings and the barest of passes, with the best stores there are.
+// The machine's ceilings, and resolve, the pass that does least beside moving memory. Stores bypass the cache where
+// they can.
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 
@@ -25,7 +26,7 @@ kernel void wr_triad(global const float *restrict a, global const float *restric
 #define WR_FMA_ROUNDS 256
 #define WR_FMA_CHAINS 12
 
-/// Independent chains of fma, enough of them to hide its latency: nothing but arithmetic.
+/// Nothing but arithmetic: as many independent chains of fma as it takes to hide their latency.
 kernel void wr_fma_chains(global const float *restrict in, global WR_SCALAR *restrict out, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
@@ -56,7 +57,7 @@ kernel void wr_resolve_only(global const float *restrict n_x, global const float
     wr_stream(n.z, out_z, at);
 }
 
-/// As many planes as screen derivatives read and write.
+/// Copies as many planes as screen derivatives read and write.
 kernel void wr_copy_four_to_six(global const float *restrict a, global const float *restrict b,
                                 global const float *restrict c, global const float *restrict d,
                                 global WR_SCALAR *restrict out_a, global WR_SCALAR *restrict out_b,

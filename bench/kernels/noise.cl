@@ -1,18 +1,19 @@
-// Noise against noise: value and gradient, the same by differences, values alone. WR_OCTAVES of each, summed.
+// Noise in several ways: value and analytic gradient, gradient by differences, value alone. Each sums WR_OCTAVES
+// octaves.
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 
 #define WR_OCTAVES 8
 
-/// Octave k: finer by 2, and moved so that lattices do not meet.
+/// The point in octave k, which is 2^k times finer and moved, so that the octaves' lattices do not line up.
 wr_fn wr_vec3 wr_octave(wr_vec3 p, int k)
 {
     wr_real scale = (wr_real)((float)(1 << k)), offset = (wr_real)(WR_R(17.25) * k);
     return wr_v3(fma(p.x, scale, offset), fma(p.y, scale, offset), fma(p.z, scale, offset));
 }
 
-/// Perlin noise without a table: corners are hashed by multiplication and directions chosen by bits, as FastNoise2
-/// does; made for values, and the fastest way to them that we know.
+/// Perlin noise without a table, as FastNoise2 does it: corners are hashed by multiplication, and bits of the hash
+/// choose the direction. The fastest way to values that we know.
 wr_fn wr_real wr_hashed_corner(wr_index hash, wr_real x, wr_real y, wr_real z)
 {
     hash *= 0x27d4eb2d;
@@ -43,8 +44,8 @@ wr_fn wr_real wr_hashed_noise(wr_vec3 p)
     return wr_mixed(wr_mixed(a, b, v), wr_mixed(c, d, v), w);
 }
 
-// A vector that has to be on the stack aligns it, as those of fused kernels do: else LLVM lets what registers have no
-// room for cross cache lines, by chance of the thread, and takes up to a fifth longer.
+// The volatile vector forces the stack to be aligned, as it is in fused kernels. Without it, LLVM may place values that
+// do not fit into registers across two cache lines, depending on the thread, and the kernel takes up to a fifth longer.
 #define WR_NOISE_KERNEL(name, octave)                                                                        \
     kernel void name(global const float *restrict in_x, global const float *restrict in_y,                   \
                      global const float *restrict in_z, global WR_SCALAR *restrict out_value,                \

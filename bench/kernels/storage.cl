@@ -1,5 +1,5 @@
-// Resolve from G-buffers stored in fewer bytes: what a byte saved costs in degrees. wr_resolve_only of memory.cl reads
-// floats.
+// Resolve from G-buffers that are stored in fewer bytes, to see what that costs in degrees. wr_resolve_only of
+// memory.cl is the same from floats.
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 
@@ -34,14 +34,14 @@ kernel void wr_from_halves(global const half *restrict n_x, global const half *r
     wr_resolve_and_store(wr_normalize(n), g, out_x, out_y, out_z, at);
 }
 
-/// The unit vector of two 16-bit octahedral coordinates [Cigolle et al. 2014].
+/// The unit vector of two octahedral coordinates in [-1, 1] [Cigolle et al. 2014].
 wr_fn wr_vec3 wr_from_octahedron(wr_real u, wr_real v)
 {
     wr_real z = 1 - fabs(u) - fabs(v), fold = fmax(-z, (wr_real)(0));
     return wr_normalize(wr_v3(u - copysign(fold, u), v - copysign(fold, v), z));
 }
 
-/// Octahedral normals; gradients as they are.
+/// From octahedral normals and float gradients.
 kernel void wr_from_octahedral(global const short *restrict n_u, global const short *restrict n_v,
                                global const float *restrict g_x, global const float *restrict g_y,
                                global const float *restrict g_z, global WR_SCALAR *restrict out_x,

@@ -38,13 +38,13 @@ std::string join(const std::vector<std::string>& names) {
     return text.empty() ? "-" : text;
 }
 
-/// What the lists of the frame's tiles hold, if the scene has tables of decals.
+/// How many decals the frame's tiles have in their lists. Nothing when the scene has no tables of decals.
 std::optional<BinReport> bins_of(const Scene& scene, const Frame& frame, const Plan& plan, int number) {
     if (plan.tables.empty()) return std::nullopt;
     return bin_report(scene, frame, number);
 }
 
-/// A camera that "wrinkle run" refuses is told of; the plan is the same.
+/// Warns of a camera that "wrinkle run" would refuse: it makes no difference to the plan.
 void warn_of_camera(const Scene& scene, int number) {
     const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
     const FrameCamera camera = read_frame_camera(scene.camera, reader, number);
@@ -91,7 +91,7 @@ nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
     return all;
 }
 
-/// What stands behind numbers[i] of the kernel source.
+/// Prints the numbers that the kernels read from their buffer, and the index of the first of each.
 void print_numbers(const Plan& plan, const NumberSource& source) {
     if (!plan.numbers.empty()) fmt::print("\nnumbers of the scene, in the order of the kernels' buffer\n");
     std::size_t first = 0;
@@ -101,7 +101,7 @@ void print_numbers(const Plan& plan, const NumberSource& source) {
     }
 }
 
-/// The scene's budget, if it has one, on the device that would keep it.
+/// The scene's error budget, by the costs of the device that would evaluate it. Nothing when the scene has none.
 std::optional<Budget> budget_of(const Scene& scene, const Frame& frame, const std::string& device) {
     if (!scene.budget.max_error) return std::nullopt;
     return Budget(scene, camera_kind(frame.camera, frame.size), costs_of(Device::open(device).info));

@@ -1,6 +1,6 @@
-// A kernel of your own from wrinkle's kernel functions: a sine along x bumps the normal of a plane. It needs OpenCL and
-// the kernel files only (the device is found through wrinkle for brevity). Run with the folder of the kernel files:
-// wrinkle_KERNEL_DIR of the CMake package.
+// A kernel of your own that uses wrinkle's kernel functions: a sine along x bumps the normal of a plane. It needs only
+// OpenCL and the kernel files (wrinkle finds the device here, for brevity). Its argument is the folder of the kernel
+// files, wrinkle_KERNEL_DIR of the CMake package.
 #include <cmath>
 #include <iostream>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// constants.clh: the thresholds where functions use them.
+// constants.clh: the thresholds, tested by the functions that use them.
 #include <gtest/gtest.h>
 
 #include "resources/frame_constants.h"
@@ -7,7 +7,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// Expressions over one column v.
+/// Evaluates expressions of a column v.
 Results over(const std::vector<float>& v, const std::vector<std::string>& outputs, const std::string& body = {},
              const ColumnData& data = {}) {
     return run_kernel({body, outputs}, {{"v", v}}, {8, false}, data);
@@ -20,7 +20,7 @@ TEST(Constants, BackgroundStartsAtItsDepth) {
     EXPECT_EQ(over({last, 1e9f, 1e10f}, {"truth(wr_valid_depth(wr_load_floats(in_v, at)))"})[0], (Numbers{1, 0, 0}));
 }
 
-/// A ray within the tangent plane, and one beyond: finite, and continuous on each side.
+/// For rays within the tangent plane and beyond it, derivatives are finite, and continuous on either side.
 TEST(Constants, LeastCosineKeepsScreenDerivativesFinite) {
     wr_camera frame{};
     frame.d0[2] = -1, frame.dx[0] = 0.001, frame.dy[1] = -0.001;

@@ -43,7 +43,8 @@ TEST(GBuffer, ValidityIsDecidedFromBits) {
         }
 }
 
-/// Pixel centres of rows of any width, also narrower than the lanes, in bands that do not start at row 0.
+/// The pixels of a work-item have the right coordinates in rows of any width, also narrower than the lanes, and in
+/// bands that do not start at row 0.
 TEST(GBuffer, PixelsOfAWorkItem) {
     for (const int width : {1, 2, 3, 7, 16, 31, 97}) {
         const std::size_t pixels = static_cast<std::size_t>(width) * 11;
@@ -76,7 +77,7 @@ cases::Cases face_viewer_cases() {
         if (seed % 4 == 0) p = (cross(n, random.unit()) + n * random.magnitude(-6, -2)) * random.magnitude(-3, 3);
         p = cases::Random::rounded(p);
         const real along = dot(normalize(n), normalize(p));
-        if (std::abs(along) < 3e-7L) continue;  // either answer is right
+        if (std::abs(along) < 3e-7L) continue;  // rounding decides: either answer is right
         c.add("face the viewer, seed " + std::to_string(seed), hard);
         c.in("n", n), c.in("p", p);
         c.out("normal", reference::face_viewer(normalize(n), normalize(-p)));
@@ -94,7 +95,8 @@ TEST(GBuffer, NormalsFaceTheViewer) {
            {"away", {"truth(away)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
-/// An eye at 1e6 metres: the difference is good to an ulp of itself, not of the eye.
+/// With an eye 1e6 metres away, a position relative to the eye is exact to an ulp of itself, not of the eye's
+/// coordinates.
 TEST(GBuffer, PositionsRelativeToTheEye) {
     cases::Cases c{.name = "positions"};
     wr_camera frame{};
@@ -136,7 +138,8 @@ TEST(GBuffer, PositionsRelativeToTheEye) {
             0}});
 }
 
-/// Steps to a pixel beside this one: good to their own terms, also where they are a ten thousandth of the distance.
+/// Steps to a neighbouring pixel are exact to the rounding of their own terms, also when they are as short as a ten
+/// thousandth of the distance.
 TEST(GBuffer, StepsToNeighbours) {
     cases::Cases c{.name = "steps"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -157,7 +160,7 @@ TEST(GBuffer, StepsToNeighbours) {
            {"distant", xyz("b"), ErrorMeasure::absolute, 6e-7, 6e-7}});
 }
 
-/// In pairs, positions have about twice the digits.
+/// As pairs of floats, positions have about twice as many digits.
 TEST(GBuffer, PositionsInPairs) {
     wr_camera frame{};
     const V eye{1234567.8901L, -54321.0625L, 3.14159265L}, d0{-0.51L, 0.27L, -1.1L}, dx{0.0013L, 1e-4L, 0},

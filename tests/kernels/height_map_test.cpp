@@ -1,4 +1,4 @@
-// sources/height_map.clh, clamped; repeated: functions_test.cpp
+// sources/height_map.clh with textures that are clamped. (functions_test.cpp tests those that repeat.)
 #include "tests/cases/height_map.h"
 
 #include "tests/kernels/check.h"
@@ -16,7 +16,7 @@ std::string slope_text(int texture, const std::string& form) {
         texture, form);
 }
 
-// Texels and lods are floats, so double runs keep only their digits.
+// Texels and levels of detail are floats in double runs, too, which limits how exact those can be.
 TEST(HeightMap, PlainClamped) {
     check(cases::clamped_slope_cases(), slope_text(0, "wr_height_slope_plain_clamp"),
           {{"plain", xy("d"), ErrorMeasure::absolute, bound, bound, 1e-6}});

@@ -27,7 +27,7 @@ TEST(Lanes, LoadAndStoreKeepTheOrder) {
         }
 }
 
-/// Neighbours of the first and last pixels: what is outside reads as 0, and nothing else does.
+/// Neighbours of the first and the last pixels that lie outside of the plane read as 0, and only those do.
 TEST(Lanes, LoadNearStaysInside) {
     const std::size_t pixels = 37;
     std::vector<float> v = count(pixels);
@@ -65,7 +65,7 @@ TEST(Lanes, Log2) {
         for (const int lanes : all_lanes) {
             const Results r = run_kernel({"", {"wr_log2(v)"}}, {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
-                const double want = std::log2(double{v[i]});  // an ulp of the result is all that a large one has
+                const double want = std::log2(double{v[i]});  // large results are compared by their own ulp
                 EXPECT_NEAR(r[0][i], want, fp64 ? 1e-13 : 2e-7 + want * 6e-8) << v[i];
             }
         }
@@ -85,7 +85,7 @@ TEST(Lanes, AnyIsTrueWhereOneLaneIs) {
         }
 }
 
-/// A comparison is 1 on one lane and -1 on several; masks of both kinds select, combine and negate alike.
+/// True is 1 on one lane and -1 on several. Masks of both kinds select, combine and negate alike.
 TEST(Lanes, MasksSelectCombineAndNegate) {
     const Columns columns{{"a", {0, 1, 2, 3}}, {"b", {3, 2, 1, 0}}};
     for (const bool fp64 : precisions)

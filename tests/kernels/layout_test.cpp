@@ -1,4 +1,4 @@
-// layout.h: the host's structs and the device's have the same members in the same places.
+// layout.h: structs have the same members at the same places on the host and on the device.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -9,7 +9,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// A member as kernel text, and what the host finds in it when number i of the struct is i + 1.
+/// A member as kernel text, and the number that the host finds in it when the struct's numbers are 1, 2, 3 and so on.
 struct Member {
     std::string text;
     double value;

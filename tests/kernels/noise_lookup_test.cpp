@@ -11,7 +11,8 @@ using reference::perlin_permutation;
 
 TEST(NoiseLookup, GivesHashesAndDirectionsOnAnyLanes) {
     std::vector<float> numbers;
-    for (int i = -300; i < 511; ++i) numbers.push_back(static_cast<float>(i));  // any number has its low 8 bits
+    // Only the low 8 bits count, also of negative numbers.
+    for (int i = -300; i < 511; ++i) numbers.push_back(static_cast<float>(i));
     for (const auto& [lanes, fp64] :
          {std::pair{1, false}, {4, false}, {8, false}, {16, false}, {1, true}, {8, true}, {16, true}}) {
         const Results r = run_kernel(

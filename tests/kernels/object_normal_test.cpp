@@ -1,4 +1,4 @@
-// sources/object_normal.clh, sources/derivative_map.clh: what reads textures; the rest are rows of functions().
+// sources/object_normal.clh, sources/derivative_map.clh: what reads textures. (functions_test.cpp tests the rest.)
 #include "tests/cases/height_map.h"
 
 #include "tests/kernels/check.h"
@@ -39,8 +39,8 @@ TEST(ObjectNormal, RepeatsOrClamps) {
            {"across", {"wr_texels_across(repeat)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7, 1e-7}});
 }
 
-/// The rows that a plan gives a turned, stretched or mirrored object: what its cofactors make of a normal, against the
-/// cross product of two tangents that the matrix moves.
+/// For turned, stretched or mirrored objects a plan computes rows, of cofactors, that turn a normal. The result must be
+/// the direction of the cross product of two tangents that the matrix itself has moved.
 TEST(ObjectNormal, RowsTurnAVector) {
     cases::Cases c{.name = "turned normals"};
     for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -1,4 +1,4 @@
-// sources/projector.clh with the projection that follows it; its functions by themselves are rows of functions().
+// sources/projector.clh followed by the projection onto the surface. (functions_test.cpp tests its functions one by one.)
 #include "tests/cases/decal.h"
 
 #include "tests/kernels/check.h"

@@ -6,7 +6,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// One picture of odd size, stored with one, two and three channels, repeated.
+/// A picture of odd size that repeats, as textures of one, two and three channels.
 struct Picture {
     cases::Pyramid pyramid;
     cases::Cases cases{.name = "texture samples"};
@@ -21,7 +21,7 @@ struct Picture {
         };
         cases::add_texture(this->cases.data, pyramid, 1, texel);
         cases::add_texture(this->cases.data, pyramid, 2, texel);
-        cases::add_texture(this->cases.data, pyramid, 4, texel);  // three channels take four floats
+        cases::add_texture(this->cases.data, pyramid, 4, texel);  // a texel of three channels is stored in four floats
     }
 };
 

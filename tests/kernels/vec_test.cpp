@@ -4,7 +4,8 @@
 namespace wrinkle::test {
 namespace {
 
-/// Products and sums that cancel to nearly nothing: long double holds products of floats exactly.
+/// Sums of products that cancel to nearly nothing. The truth is computed in long double, which holds products of floats
+/// exactly.
 TEST(Vec, CompensatedFormsKeepTheirDigitsWhereTermsCancel) {
     cases::Cases c{.name = "compensated forms"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -29,7 +30,8 @@ TEST(Vec, CompensatedFormsKeepTheirDigitsWhereTermsCancel) {
           {{"dop", {"wr_dop(a.x, b.y, a.y, b.x)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7},
            {"cross", xyz("axb"), ErrorMeasure::relative, 1.2e-7, 1.2e-7},
            {"dot2", {"wr_dot2(a, o)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7}});
-    for (std::size_t row = 0; row < c.size(); ++row) {  // twice the precision is not more than that
+    // Compensation doubles the digits. Where more of them cancel than that, a larger error is allowed.
+    for (std::size_t row = 0; row < c.size(); ++row) {
         const real terms = length(c.vec(row, "n")) * length(c.vec(row, "a")) * length(c.vec(row, "b"));
         c.allowance[row] = std::max(real{1}, 1e-7L * terms / std::abs(c.want["triple"][row].x));
     }
@@ -59,7 +61,7 @@ TEST(Vec, NormalizeOfAnyLength) {
           {{"unit", xyz("r"), ErrorMeasure::absolute, 0, 2.4e-7}, {"unit", xyz("r"), ErrorMeasure::degrees, 0, 1e-5}});
 }
 
-/// Stored normals; short, long and broken ones do not change what others in their lanes get.
+/// Normals as G-buffers store them. Short, long and broken ones do not change the results of other lanes.
 TEST(Vec, RenormalizeOfNearlyUnitVectors) {
     cases::Cases c{.name = "renormalize"};
     for (unsigned seed = 1; seed <= 600; ++seed) {

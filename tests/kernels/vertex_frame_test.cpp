@@ -1,4 +1,4 @@
-// Bump by given tangents, against what a baker of mikkTSpace normal maps expects.
+// Bumps with the renderer's tangents, against the normal that mikkTSpace maps are baked for.
 #include "tests/cases/mikktspace.h"
 #include "tests/kernels/check.h"
 
