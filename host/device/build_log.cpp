@@ -23,8 +23,8 @@ std::string take_number(std::string& text) {
     return number;
 }
 
-/// An error as "FILE:LINE: WHAT", of the two forms that compilers made of clang have: FILE:LINE:COLUMN: error: WHAT, and
-/// error: FILE:LINE:COLUMN: WHAT.
+/// An error as "FILE:LINE: WHAT", of the two forms that compilers made of clang have: FILE:LINE:COLUMN: error: WHAT,
+/// and error: FILE:LINE:COLUMN: WHAT.
 std::string error_of(const std::string& line) {
     constexpr std::string_view mark = "error: ";
     const std::size_t at = line.find(mark);

@@ -22,11 +22,11 @@ constexpr const char* kNameRule =
 
 /// Words of OpenCL C that a name of letters may clash with: the language would complain of text that nobody wrote.
 constexpr std::string_view kWords[] = {
-    "auto",  "bool",   "break",  "case",   "char",     "const",    "constant", "continue", "default",  "do",
-    "double", "else",  "enum",   "extern", "float",    "for",      "global",   "goto",     "half",     "if",
-    "inline", "int",   "kernel", "local",  "long",     "private",  "register", "restrict", "return",   "short",
-    "signed", "size_t", "sizeof", "static", "struct",  "switch",   "typedef",  "uchar",    "uint",     "ulong",
-    "union",  "unsigned", "ushort", "void", "volatile", "while"};
+    "auto",   "bool",     "break",  "case",   "char",     "const",   "constant", "continue", "default", "do",
+    "double", "else",     "enum",   "extern", "float",    "for",     "global",   "goto",     "half",    "if",
+    "inline", "int",      "kernel", "local",  "long",     "private", "register", "restrict", "return",  "short",
+    "signed", "size_t",   "sizeof", "static", "struct",   "switch",  "typedef",  "uchar",    "uint",    "ulong",
+    "union",  "unsigned", "ushort", "void",   "volatile", "while"};
 
 bool is_name(const std::string& text) {
     const auto letter = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
@@ -40,8 +40,7 @@ void read(scene::Table& table, Layer& layer) {
     table.require("file");
     table.read_file("file", bump.file);
     table.require("function");
-    if (table.read("function", bump.function) && !is_name(bump.function))
-        table.complain("function", kNameRule);
+    if (table.read("function", bump.function) && !is_name(bump.function)) table.complain("function", kNameRule);
     if (auto parameters = table.table("parameters", "parameters of " + table.where())) {
         for (const std::string& name : parameters->keys()) {
             if (!is_name(name)) parameters->complain(name, kNameRule);
@@ -73,9 +72,10 @@ void add_source(LayerText& at, const KernelLayer& l) {
     const std::string file = l.file.string();
     const std::string text = scene::read_text(l.file);
     if (!defines(text, l.function))
-        throw Error(fmt::format("{}: {} has no function \"{}\"; it must be: wr_fn wr_dual {}(wr_bump_point at, "
-                                "{}_parameters k)",
-                                at.who, file, l.function, l.function, l.function));
+        throw Error(
+            fmt::format("{}: {} has no function \"{}\"; it must be: wr_fn wr_dual {}(wr_bump_point at, "
+                        "{}_parameters k)",
+                        at.who, file, l.function, l.function, l.function));
     std::string members;
     for (const auto& [name, value] : l.parameters) members += fmt::format("    WR_SCALAR {};\n", name);
     if (members.empty()) members = "    WR_SCALAR none;\n";
@@ -97,7 +97,8 @@ std::string emit(LayerText& at) {
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += kKernel;
 
-    std::string text, coordinates = "{(wr_real)(0), (wr_real)(0)}, {(wr_real)(0), (wr_real)(0)}, {(wr_real)(0), (wr_real)(0)}";
+    std::string text,
+        coordinates = "{(wr_real)(0), (wr_real)(0)}, {(wr_real)(0), (wr_real)(0)}, {(wr_real)(0), (wr_real)(0)}";
     if (l.uv) {
         text = emit_texcoord(at.emitter, at.layer, own_uv, Wrap::clamp, at.who, at.section);
         if (l.uv->source == UvSource::aov) text += "        m = uv_valid ? m : (wr_real)(0);\n";
@@ -106,9 +107,8 @@ std::string emit(LayerText& at) {
     std::string parameters;
     for (const auto& [name, value] : l.parameters)
         parameters += (parameters.empty() ? "" : ", ") +
-                      at.number("parameter " + name, [name = name](const Layer& layer) {
-                          return kernel_of(layer).parameters.at(name);
-                      });
+                      at.number("parameter " + name,
+                                [name = name](const Layer& layer) { return kernel_of(layer).parameters.at(name); });
     text += fmt::format(
         "        wr_bump_point point = {{wr_world_position(camera, p), n, {}, {}}};\n"
         "        {}_parameters parameters = {{{}}};\n"

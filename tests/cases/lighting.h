@@ -26,7 +26,9 @@ inline Cases lighting_cases() {
     const Lighting lighting = test_lighting();
     const Camera at_origin{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
                            {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, -0.5}, {0, 0, -1, 0}}}};
-    const FrameConstants constants = frame_constants({}, lighting, at_origin, {8, 8});
+    Scene scene;
+    scene.lighting = lighting;
+    const FrameConstants constants = frame_constants({}, {scene, {}}, at_origin, {8, 8});
     const double *first = constants.lighting.ambient, *light = &constants.lights[0].kind;
     c.data.constants.assign(first, first + sizeof(wr_lighting) / sizeof(double));
     c.data.constants.insert(c.data.constants.end(), light,

@@ -180,7 +180,9 @@ private:
 
     static bool reads_uv_plane(const Layer& layer) {
         const auto reads = [](const auto& bump) {
-            if constexpr (requires { bump.uv; })
+            if constexpr (requires { bump.uv.has_value(); })
+                return bump.uv && bump.uv->source == UvSource::aov;
+            else if constexpr (requires { bump.uv; })
                 return bump.uv.source == UvSource::aov;
             else
                 return false;

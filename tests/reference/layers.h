@@ -16,6 +16,7 @@
 #include "tests/reference/tbn.h"
 #include "tests/reference/texcoord.h"
 #include "tests/reference/texture_metres.h"
+#include "tests/reference/user_kernel.h"
 #include "tests/reference/volume.h"
 
 namespace wrinkle::reference {
@@ -100,6 +101,23 @@ std::function<NoiseValue<T>(Vec<T> p, T longest)> layer_noise(const NoiseLayer& 
             if (shape.bias) n = shape_bias(n, T(*shape.bias));
             return n;
         };
+}
+
+template <class T>
+LayerFunction<T> make_layer(const KernelLayer& layer, bool footprint, SceneTextures<T>&) {
+    return [=, height = user_height(layer.function)](const Surfel<T>& s) -> Contribution<T> {
+        const T longest = footprint ? std::max(length(s.d.dp_dx), length(s.d.dp_dy)) : T(0);
+        const auto gradient = [&](T x, T y, T z) {
+            const long double at[3] = {x, y, z};
+            const Vec<long double> g = user_gradient(height, layer.parameters, at, longest);
+            return Vec<T>{static_cast<T>(g.x), static_cast<T>(g.y), static_cast<T>(g.z)};
+        };
+        if (!layer.over_uv) return {{}, gradient(s.position.x, s.position.y, s.position.z)};
+        const auto at = map_coordinates(layer.uv.value(), s);
+        if (!at) return {{}, {}, false};
+        const Vec<T> slope = gradient(at->st.x, at->st.y, T(0));
+        return {surface_gradient_scale_dependent(s.normal, s.d.dp_dx, s.d.dp_dy, at->d, {slope.x, slope.y}), {}};
+    };
 }
 
 template <class T>
