@@ -27,20 +27,10 @@ typedef struct {
     WR_SCALAR forward[3];  // along the rays of a parallel projection, per unit of view depth
     // What a float leaves of d0 ... w, for exact variants; not to be added in double
     WR_SCALAR d0_low[3], dx_low[3], dy_low[3], c0_low[3], c1_low[3], c2_low[3], c3_low[3], w_low[4];
-} wr_frame;
+} wr_camera;
 
-// A decal's box. q = to_box (p - center) is in [-1,1]^3 inside.
-typedef struct {
-    WR_SCALAR center[3];
-    WR_SCALAR to_box_x[3], to_box_y[3], to_box_z[3];  // unit axis / half size
-    WR_SCALAR gradient_s[3], gradient_t[3];           // volume gradient for a slope of 1 along s, t; scale, sign
-    WR_SCALAR axis_z[3];                              // unit, towards the projector
-    WR_SCALAR falloff;                                // 1 / share of the half size that fades; 0: a hard edge
-    WR_SCALAR fade_zero, fade_slope;                  // angle fade = clamp((n . axis_z - fade_zero) fade_slope, 0, 1)
-    WR_SCALAR texture;                                // number of its texture
-} wr_decal;
-
-// A row of a table of decals. q = to_box (p - center) is in [-1,1]^3 inside its box. Shapes: 0 box, 1 sphere, 2 cone.
+// A projector: a decal, or a row of a table of them. q = to_box (p - center) is in [-1,1]^3 inside its box. Shapes: 0
+// box, 1 sphere, 2 cone.
 typedef struct {
     WR_SCALAR center[3];
     WR_SCALAR to_box_x[3], to_box_y[3], to_box_z[3];  // unit axis / half size

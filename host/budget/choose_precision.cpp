@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "layers/kinds.h"
+
 namespace wrinkle {
 
 namespace {
@@ -55,8 +57,9 @@ std::vector<Choosable> choosables(const Scene& scene, CameraKind camera, const D
     std::vector<Choosable> all{choosable(geometry_precisions(), {kGeometryKind}, costs)};
     all.front().name = "the geometry";
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-        if (std::holds_alternative<ResolveLayer>(scene.layers[i].bump)) continue;
-        all.push_back(choosable(layer_precisions(scene, i, camera), cost_kind(scene.layers[i]), costs));
+        if (kind_of(layer_kinds(), scene.layers[i]).ends_stage) continue;
+        all.push_back(choosable(layer_precisions(layer_kinds(), scene, i, camera),
+                                cost_kind(layer_kinds(), scene.layers[i]), costs));
         all.back().layer = i;
         all.back().name = fmt::format("layer \"{}\"", scene.layers[i].name);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "budget/cost_table.h"
+#include "plan/plan.h"
 #include "plan/precision.h"
 
 namespace wrinkle {

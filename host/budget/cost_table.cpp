@@ -49,16 +49,6 @@ std::vector<DeviceCosts> parse(const std::string& text, const std::string& name)
 
 }  // namespace
 
-CostKind cost_kind(const Layer& layer) {
-    const auto* noise = std::get_if<NoiseLayer>(&layer.bump);
-    if (noise == nullptr) return {layer.kind()};
-    const char* const types[] = {"perlin", "perlin1985", "simplex", "worley"};
-    const char* const gradients[] = {"", " forward", " central"};
-    return {
-        fmt::format("noise {}{}", types[static_cast<int>(noise->type)], gradients[static_cast<int>(noise->gradient)]),
-        static_cast<double>(noise->octaves)};
-}
-
 std::optional<VariantCost> DeviceCosts::find(const std::string& kind, Precision precision) const {
     const auto variants = kinds.find(kind);
     if (variants == kinds.end()) return std::nullopt;

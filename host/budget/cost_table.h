@@ -14,16 +14,10 @@ namespace wrinkle {
 
 /// What a variant of a layer was measured to cost and to err by.
 struct VariantCost {
-    double ns = 0;            ///< nanoseconds a pixel, of one unit (see CostKind)
+    double ns = 0;            ///< nanoseconds a pixel, of one unit (CostKind, scene/layer_kind.h)
     double p99 = 0, max = 0;  ///< degrees, against double
 };
 
-/// What rows of the table are about: a kind of layer, split where its costs differ by far.
-struct CostKind {
-    std::string name;  ///< "height_map", "noise simplex"
-    double units = 1;  ///< that costs grow with: octaves of noise
-};
-CostKind cost_kind(const Layer& layer);
 /// The kind of positions and screen derivatives.
 inline const std::string kGeometryKind = "geometry";
 

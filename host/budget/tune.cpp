@@ -8,6 +8,7 @@
 #include "budget/error_sample.h"
 #include "device/guarded.h"
 #include "io/frame_path.h"
+#include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
 #include "wrinkle/error.h"
@@ -43,7 +44,7 @@ public:
         const Scene empty = with({});
         empty_ = time(empty, {}, nullptr), empty_in_double_ = time(empty, {.fp64 = true}, nullptr);
         for (std::size_t i = 0; i < scene_.layers.size(); ++i)
-            if (!std::holds_alternative<ResolveLayer>(scene_.layers[i].bump)) measure_layer(i);
+            if (!kind_of(layer_kinds(), scene_.layers[i]).ends_stage) measure_layer(i);
         measure_geometry();
     }
 
@@ -85,9 +86,9 @@ private:
         say(fmt::format("layer \"{}\"", scene_.layers[index].name));
         Scene alone = with({scene_.layers[index]});
         alone.layers.front().mask = {};  // what it costs and errs where it is
-        const CostKind kind = cost_kind(scene_.layers[index]);
+        const CostKind kind = cost_kind(layer_kinds(), scene_.layers[index]);
         ErrorSample sample = sample_of(alone);
-        for (const Precision precision : layer_precisions(alone, 0, kind_)) {
+        for (const Precision precision : layer_precisions(layer_kinds(), alone, 0, kind_)) {
             const double ns = time(alone, {.precision = {.layers = {precision}}}, &sample);
             add(kind, precision, ns - empty_, sample.stats());
         }

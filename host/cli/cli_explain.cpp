@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "device/kernel_sources.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
+#include "layers/kinds.h"
 #include "resources/volume_heap.h"
 #include "run/bin_report.h"
 #include "run/open_frame.h"
@@ -38,13 +40,13 @@ std::string join(const std::vector<std::string>& names) {
     return text.empty() ? "-" : text;
 }
 
-/// What the lists of the frame's tiles hold, if the scene has tables of decals.
+/// How many decals the frame's tiles have in their lists. Nothing when the scene has no tables of decals.
 std::optional<BinReport> bins_of(const Scene& scene, const Frame& frame, const Plan& plan, int number) {
     if (plan.tables.empty()) return std::nullopt;
     return bin_report(scene, frame, number);
 }
 
-/// A camera that "wrinkle run" refuses is told of; the plan is the same.
+/// Warns of a camera that "wrinkle run" would refuse: it makes no difference to the plan.
 void warn_of_camera(const Scene& scene, int number) {
     const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
     const FrameCamera camera = read_frame_camera(scene.camera, reader, number);
@@ -92,7 +94,17 @@ nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
     return all;
 }
 
-/// The scene's budget, if it has one, on the device that would keep it.
+/// Prints the numbers that the kernels read from their buffer, and the index of the first of each.
+void print_numbers(const Plan& plan, const NumberSource& source) {
+    if (!plan.numbers.empty()) fmt::print("\nnumbers of the scene, in the order of the kernels' buffer\n");
+    std::size_t first = 0;
+    for (const PlannedNumbers& planned : plan.numbers) {
+        fmt::print("  {:>4}  {}: {}\n", first, planned.name, fmt::join(numbers_of(planned, source), ", "));
+        first += planned.count;
+    }
+}
+
+/// The scene's error budget, by the costs of the device that would evaluate it. Nothing when the scene has none.
 std::optional<Budget> budget_of(const Scene& scene, const Frame& frame, const std::string& device) {
     if (!scene.budget.max_error) return std::nullopt;
     return Budget(scene, camera_kind(frame.camera, frame.size), costs_of(Device::open(device).info));
@@ -161,6 +173,7 @@ void explain(const ExplainArguments& arguments) {
     if (budget) print_choice(*budget);
     if (bins) print_bins(plan, *bins);
     print_volumes(volumes);
+    print_numbers(plan, {scene, frame.cryptomatte});
     if (arguments.no_source) return;
     fmt::print("\n{}", arguments.full ? expand_includes(plan.source, "evaluate.cl") : plan.source);
 }

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "io/info.h"
+#include "tools/readiness.h"
 
 namespace wrinkle::cli {
 
@@ -52,7 +53,7 @@ void print_text(const GBufferInfo& info) {
     }
 
     fmt::print("\n");
-    for (const Readiness& use : info.uses)
+    for (const Readiness& use : readiness(info))
         fmt::print(
             "  {:<36}{}{}\n", use.use, use.missing.empty() ? "ready" : "lacks " + join(use.missing),
             use.defaults.empty() ? "" : fmt::format(" (the scene's constants stand in for {})", join(use.defaults)));
@@ -66,7 +67,7 @@ void print_json(const GBufferInfo& info) {
                          {"min", role.min},
                          {"max", role.max},
                          {"invalid", role.invalid}});
-    for (const Readiness& use : info.uses)
+    for (const Readiness& use : readiness(info))
         uses.push_back({{"use", use.use}, {"missing", use.missing}, {"defaults", use.defaults}});
     if (info.camera) {
         camera["origin"] = info.camera->origin;

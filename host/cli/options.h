@@ -7,9 +7,9 @@
 /// Options that several commands take.
 namespace wrinkle::cli {
 
-/// --device, as Device::open takes it.
+/// Adds --device, whose value Device::open takes.
 void add_device_option(CLI::App& command, std::string& device);
-/// --max-error, in place of a scene's own. `what` says what the command does with it.
+/// Adds --max-error, which replaces a scene's own. `what` says in the help what the command does with it.
 void add_max_error_option(CLI::App& command, std::optional<double>& max_error, const std::string& what);
 
 }  // namespace wrinkle::cli

@@ -8,7 +8,7 @@ using enum Precision;
 
 std::vector<Function> projector_functions() {
     const Parameter p = vector("p", "metres, world, relative to the eye", "surface point");
-    const Setting row{"decal", Setting::Kind::table_row, "the row, in the same space"};
+    const Setting row{"decal", Setting::Kind::projector, "the row, in the same space"};
     const char* const near_apex = "Of cones times the square of the image's size at the base over that at the point.";
     return {
         {.name = "projector_locate",
@@ -25,7 +25,7 @@ std::vector<Function> projector_functions() {
          .variants = {{standard,
                        "wr_projected at_row = wr_project(decal, p);\n"
                        "q = at_row.q, image = at_row.image, size = at_row.size;\n"
-                       "inside = at_row.inside ? (real)(1) : (real)(0);\n"
+                       "inside = at_row.inside ? (wr_real)(1) : (wr_real)(0);\n"
                        "falloff = wr_projector_falloff(decal, at_row);",
                        {1e-5, 2e-5, 1e-5, 0, 1e-4}}},
          .note = std::string("For points up to 10 half sizes from the eye. ") + near_apex},
@@ -58,6 +58,14 @@ std::vector<Function> projector_functions() {
                        "dh_dp = wr_projector_blend(decal, wr_project(decal, p), slope, weight, wr_zero3());",
                        {3e-5}}},
          .note = near_apex},
+        {.name = "projector_bumped_axis",
+         .file = "sources/projector.clh",
+         .summary = "A row's own axis, bumped as if the image lay flat on the box; to compare with",
+         .source = "Mikkelsen 2020, section 4.5, figure 6",
+         .parameters = {p, pair("slope", "heights per unit s, t", "of the image")},
+         .settings = {row},
+         .results = {result(direction("normal", "the row's own normal"), {degrees})},
+         .variants = {{standard, "normal = wr_projector_bumped_axis(decal, wr_project(decal, p), slope);", {1e-5}}}},
     };
 }
 

@@ -117,8 +117,7 @@ std::string function_example(const Function& function) {
         if (setting.kind == Setting::Kind::vector_volume) value = "gradient.vdb";
         if (setting.kind == Setting::Kind::number) value = "1";
         if (setting.kind == Setting::Kind::vector) value = "0,0,1";
-        if (setting.kind == Setting::Kind::projector) value = "0,0,0,1,0,0,0,1,0,1,1,1";
-        if (setting.kind == Setting::Kind::table_row) value = "0,0,0,0,1,0,0,0,1,0,1,1,1";
+        if (setting.kind == Setting::Kind::projector) value = "0,0,0,0,1,0,0,0,1,0,1,1,1";
         if (setting.kind == Setting::Kind::lattice) value = "1,2";
         settings += fmt::format(" --set {}={}", setting.name, value);
     }

@@ -17,8 +17,7 @@ namespace {
 using Kind = Setting::Kind;
 
 constexpr std::size_t kLatticeOctaves = 16;
-constexpr std::size_t kFrameNumbers = sizeof(wr_frame) / sizeof(double),
-                      kDecalNumbers = sizeof(wr_decal) / sizeof(double),
+constexpr std::size_t kFrameNumbers = sizeof(wr_camera) / sizeof(double),
                       kRowNumbers = sizeof(wr_projector) / sizeof(double);
 
 /// Numbers that a value of this kind has; {0, 0} where it is not made of numbers.
@@ -34,8 +33,6 @@ Count numbers_of(Kind kind) {
         case Kind::lattice:
             return {2, 2};
         case Kind::projector:
-            return {12, 15};
-        case Kind::table_row:
             return {13, 19};
         default:
             return {0, 0};
@@ -46,14 +43,6 @@ template <class Struct>
 void append(std::vector<double>& to, const Struct& from) {
     const auto* numbers = reinterpret_cast<const double*>(&from);
     to.insert(to.end(), numbers, numbers + sizeof(Struct) / sizeof(double));
-}
-
-wr_decal decal_of(const std::vector<double>& v) {
-    const auto three = [&](std::size_t i) { return Vec3{v[i], v[i + 1], v[i + 2]}; };
-    DecalLayer decal{.texture = {}, .center = three(0), .axis_x = three(3), .axis_y = three(6), .half_size = three(9)};
-    decal.falloff = v.size() > 12 ? v[12] : 0;
-    decal.angle_fade = v.size() > 14 ? std::array{v[13], v[14]} : std::array{-2.0, -1.0};
-    return decal_constants(decal, 1, 0, {});
 }
 
 wr_projector row_of(const std::vector<double>& v) {
@@ -77,8 +66,8 @@ void check_range(const Function& function, const Setting& setting, const std::ve
         if (!std::isfinite(number) || number < setting.least || number > setting.most ||
             (setting.whole && number != std::floor(number)))
             fail(number, range_text(setting).empty() ? "a finite number" : range_text(setting));
-    if (setting.kind != Kind::projector && setting.kind != Kind::table_row) return;
-    const std::size_t half_size = setting.kind == Kind::projector ? 9 : 10;
+    if (setting.kind != Kind::projector) return;
+    constexpr std::size_t half_size = 10;
     for (std::size_t i = half_size; i < half_size + 3; ++i)
         if (numbers[i] <= 0) fail(numbers[i], "a half_size above 0");
 }
@@ -120,11 +109,8 @@ const char* wanted_text(Setting::Kind kind) {
         case Kind::vector_volume:
             return "a volume file of vectors (.vdb, .nvdb), or FILE#GRID";
         case Kind::projector:
-            return "12 numbers (center, axis_x, axis_y, half_size), or 15 (falloff and 2 cosines of the angle fade)";
-        case Kind::table_row:
             return "13 numbers (shape 0 box, 1 sphere, 2 cone; center, axis_x, axis_y, half_size), or up to 19 "
-                   "(falloff "
-                   "x, y, z, 2 cosines of the angle fade, two_sided)";
+                   "(falloff x, y, z, 2 cosines of the angle fade, two_sided)";
         case Kind::lattice:
             return "2 numbers, the frequency of the first octave and the lacunarity";
     }
@@ -146,8 +132,6 @@ SettingSize size_of(const Setting& setting) {
         case Kind::camera:
             return {kFrameNumbers, 0};
         case Kind::projector:
-            return {0, kDecalNumbers};
-        case Kind::table_row:
             return {0, kRowNumbers};
         case Kind::lattice:
             return {4 * kLatticeOctaves, 0};
@@ -178,8 +162,7 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
         const bool fits = setting.kind == Kind::camera ? camera != nullptr
                           : count.most == 0
                               ? file != nullptr
-                              : numbers && numbers->size() >= count.least && numbers->size() <= count.most &&
-                                    (setting.kind != Kind::projector || numbers->size() % 3 == 0);
+                              : numbers && numbers->size() >= count.least && numbers->size() <= count.most;
         if (!fits)
             throw Error(fmt::format("{}: the setting \"{}\" must be {}", function.name, setting.name,
                                     wanted_text(setting.kind)));
@@ -196,9 +179,6 @@ ColumnData column_data(const Function& function, const std::map<std::string, Set
                 append(data.constants, camera_constants(camera->camera, camera->size));
                 break;
             case Kind::projector:
-                append(data.records, decal_of(*numbers));
-                break;
-            case Kind::table_row:
                 append(data.records, row_of(*numbers));
                 break;
             case Kind::height_texture:
@@ -235,20 +215,16 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
                 value = fmt::format("WR_SCALAR {} = constants[{}]", setting.name, at.constants);
                 break;
             case Kind::vector:
-                value = fmt::format("vec3 {} = wr_v3({})", setting.name, here);
+                value = fmt::format("wr_vec3 {} = wr_v3({})", setting.name, here);
                 break;
             case Kind::lattice:
                 value = fmt::format("constant const WR_SCALAR *{} = {}", setting.name, here);
                 break;
             case Kind::camera:
                 value =
-                    fmt::format("constant const wr_frame *{} = (constant const wr_frame *)({})", setting.name, here);
+                    fmt::format("constant const wr_camera *{} = (constant const wr_camera *)({})", setting.name, here);
                 break;
             case Kind::projector:
-                value = fmt::format("global const wr_decal *{} = (global const wr_decal *)(records + {})", setting.name,
-                                    at.records);
-                break;
-            case Kind::table_row:
                 value = fmt::format("global const wr_projector *{} = (global const wr_projector *)(records + {})",
                                     setting.name, at.records);
                 break;
@@ -269,7 +245,7 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
         at.constants += size.constants, at.records += size.records;
     }
     for (const Result& result : function.results) {
-        const char* const types[] = {"real", "vec2", "vec3"};
+        const char* const types[] = {"wr_real", "wr_vec2", "wr_vec3"};
         kernel.body += fmt::format("    {} {};\n", types[static_cast<int>(result.shape)], result.name);
         for (const std::string& column : result.columns()) kernel.outputs.push_back(column);
     }

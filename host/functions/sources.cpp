@@ -9,8 +9,6 @@ using enum Precision;
 std::vector<Function> source_functions() {
     const Parameter st = pair("st", "1", "texture coordinates, t up"), lod = number("lod", "1", "mip level");
     const Result texel_slope = result(pair("slope", "heights per texel", "dh/ds, dh/dt"), {absolute});
-    const Parameter box_point = vector("p", "metres, world, relative to the eye", "surface point");
-    const Setting box{"decal", Setting::Kind::projector, "the decal's box, in the same space"};
     return {
         {.name = "tangent_normal_slope",
          .file = "sources/normal_map.clh",
@@ -109,54 +107,6 @@ std::vector<Function> source_functions() {
          .parameters = {pair("slope", "1", "dh/du, dh/dv")},
          .results = {result(pair("offset", "1", "within +-1"), {relative})},
          .variants = {{standard, "offset = wr_normal_offset(slope);", {3e-7}}}},
-        {.name = "decal_locate",
-         .file = "sources/decal.clh",
-         .summary = "Where points lie in a decal's box, and its fade towards the faces",
-         .source = "Mikkelsen 2020, section 4.5",
-         .parameters = {box_point},
-         .settings = {box},
-         .results = {result(vector("q", "half sizes", "place in the box, within +-1 inside"), {absolute}),
-                     result(pair("st", "1", "texture coordinates"), {absolute}),
-                     result(number("inside", "0 or 1", "whether it is in the box"), {absolute}),
-                     result(number("falloff", "1", "fade towards the faces"), {absolute})},
-         .variants = {{standard,
-                       "wr_decal_point at_box = wr_decal_locate(decal, p);\n"
-                       "q = at_box.q, st = at_box.st, inside = at_box.inside ? (real)(1) : (real)(0);\n"
-                       "falloff = wr_decal_falloff(decal, at_box);",
-                       {1e-5, 1e-5, 0, 1e-4}}},
-         .note = "For points up to 10 half sizes from the eye; the fade of a narrow falloff magnifies the error of q."},
-        {.name = "decal_step",
-         .file = "sources/decal.clh",
-         .summary = "Change of a decal's texture coordinates for a step in space",
-         .source = "Mikkelsen 2020, section 4.5",
-         .parameters = {vector("dp", "metres", "step in space")},
-         .settings = {box},
-         .results = {result(pair("step", "1", "change of (s, t)"), {relative})},
-         .variants = {{standard, "step = wr_decal_step(decal, dp);", {1e-6}}}},
-        {.name = "decal_angle_fade",
-         .file = "sources/decal.clh",
-         .summary = "Fade of a decal with the angle between a surface and the projector",
-         .source = "linear in the cosine, between the two cosines of the projector",
-         .parameters = {base_normal},
-         .settings = {box},
-         .results = {result(number("fade", "1", "within [0, 1]"), {absolute})},
-         .variants = {{standard, "fade = wr_decal_angle_fade(decal, n);", {4e-6}}}},
-        {.name = "decal_gradient",
-         .file = "sources/decal.clh",
-         .summary = "Volume gradient of an image projected along a decal's z axis",
-         .source = "Mikkelsen 2020, listing 15 before its projection",
-         .parameters = {pair("slope", "per unit s, t", "of the image"), number("weight", "1", "fades times mask")},
-         .settings = {box},
-         .results = {result(vector("dh_dp", "1, world", "volume gradient"), {relative})},
-         .variants = {{standard, "dh_dp = wr_decal_gradient(decal, slope, weight);", {4e-7}}}},
-        {.name = "decal_bumped_axis",
-         .file = "sources/decal.clh",
-         .summary = "A decal's axis, bumped as if the image lay flat on the box; to compare with",
-         .source = "Mikkelsen 2020, section 4.5, figure 6",
-         .parameters = {pair("slope", "per unit s, t", "of the image")},
-         .settings = {box},
-         .results = {result(direction("normal", "the decal's own normal"), {degrees})},
-         .variants = {{standard, "normal = wr_decal_bumped_axis(decal, slope);", {1e-5}}}},
     };
 }
 

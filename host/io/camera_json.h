@@ -7,11 +7,11 @@
 
 namespace wrinkle::io {
 
-/// Reads {"width", "height", "view", "proj"}; the matrices are rows and act on column vectors. `frame_size`: the frame
-/// it must fit in aspect.
+/// Reads {"width", "height", "view", "proj"}. Matrices are lists of rows and act on column vectors. Throws Error when
+/// the file is malformed, when it is no camera, or when its aspect is not that of `frame_size`.
 Camera read_camera_json(const std::filesystem::path& file, Size frame_size);
 
-/// "width" and "height", where they are there.
+/// "width" and "height" of a camera file, if it has them.
 std::optional<Size> camera_json_size(const std::filesystem::path& file);
 
 }  // namespace wrinkle::io

@@ -16,8 +16,8 @@ bool usable(double scale) { return std::isnormal(scale) && scale > 0; }
 }  // namespace
 
 std::optional<Camera> camera_of_clip(const Mat4& clip) {
-    constexpr double near_plane = 0.01;      // any: clip depth is never used
-    constexpr double parallel_share = 1e-9;  // of the constant in the w row: no perspective
+    constexpr double near_plane = 0.01;      // any would do, since clip depth is never used
+    constexpr double parallel_share = 1e-9;  // w varies by less than this share of its constant: a parallel projection
     const auto row = [&](std::size_t i) { return V4d(clip[i][0], clip[i][1], clip[i][2], clip[i][3]); };
     V4d x = row(0), y = row(1), w = row(3);
     const double slope = xyz(w).length();
@@ -26,7 +26,8 @@ std::optional<Camera> camera_of_clip(const Mat4& clip) {
     if (!usable(scale)) return std::nullopt;
     x /= scale, y /= scale, w /= scale;
 
-    // x = fx (right, tx) + cx (forward, d), so the parts come off one after another; the fourth component follows.
+    // The row x is fx times the axis to the right plus cx times the forward axis. The axes are perpendicular unit
+    // vectors, so projections onto them give the factors, one after the other. The fourth components are treated alike.
     const double cx = perspective ? xyz(x).dot(xyz(w)) : 0, cy = perspective ? xyz(y).dot(xyz(w)) : 0;
     if (perspective) x -= cx * w, y -= cy * w;
     const double fx = xyz(x).length();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t band_rows = 128;
 
-/// Planes worth a range: of a cryptomatte the coverage, its ids are bits.
+/// The planes whose range is reported. Of a cryptomatte that is the coverage: ids are bit patterns, not numbers.
 std::vector<std::string> measured_planes(const Role& role) {
     if (role.name == "cryptomatte") return {"crypto.coverage0"};
     return role.planes;
@@ -31,7 +31,7 @@ bool is_valid(const std::string& role, std::span<const float> components) {
 std::vector<RoleStats> measure(const GBufferReader& reader) {
     std::vector<RoleStats> stats;
     std::vector<std::string> planes;
-    std::vector<std::size_t> counts;  // of planes of each role
+    std::vector<std::size_t> counts;  // how many planes each role has
     for (const auto& role : gbuffer_roles()) {
         if (!reader.has_role(role.name)) continue;
         const auto measured = measured_planes(role);
@@ -71,7 +71,7 @@ std::vector<RoleStats> measure(const GBufferReader& reader) {
     return stats;
 }
 
-/// The camera nobody named: beside the frame, else in its header.
+/// Looks for a camera when none was named: in a file beside the frame, else in the frame's header.
 void find_camera(GBufferInfo& info, const GBufferReader& reader) {
     CameraSource source;
     for (auto beside : {info.file.string() + ".camera.json",
@@ -86,37 +86,6 @@ void find_camera(GBufferInfo& info, const GBufferReader& reader) {
     try {
         info.camera = read_frame_camera(source, reader);
     } catch (const Error& error) { info.camera_problem = error.what(); }
-}
-
-std::vector<Readiness> judge(const GBufferReader& reader, bool has_camera) {
-    std::vector<std::string> base;
-    const auto need = [&](std::vector<std::string> missing, const char* role) {
-        if (!reader.has_role(role)) missing.emplace_back(role);
-        return missing;
-    };
-    base = need(base, "normal");
-    if (!reader.has_role("depth") && !reader.has_role("position")) base.emplace_back("depth or position");
-    if (!has_camera) base.emplace_back("camera");
-    if (reader.roles().screen_space_normals) base.emplace_back("normal in world space (this one is in screen space)");
-
-    std::vector<Readiness> uses;
-    for (const char* kind : {"normal_map", "height_map", "object_normal", "derivative_map", "parallax"})
-        uses.push_back({kind, need(base, "uv"), {}});
-    std::vector<std::string> tangents = need(need(base, "uv"), "tangent");
-    if (!reader.has_role("tangent_sign") && !reader.has_role("bitangent"))
-        tangents.emplace_back("tangent_sign or bitangent");
-    uses.push_back({"normal_map with frame = \"tangents\"", tangents, {}});
-    for (const char* kind : {"height_channel", "triplanar", "noise", "decal", "decals", "volume", "constant"})
-        uses.push_back({kind, base, {}});
-    Readiness lighting{"lighting", base, {}};
-    for (const char* role : {"albedo", "roughness"}) {
-        if (!reader.has_role(role)) lighting.defaults.emplace_back(role);
-    }
-    uses.push_back(lighting);
-    uses.push_back({"relight = \"ratio\"", need(base, "beauty"), lighting.defaults});
-    uses.push_back({"mask by object", need({}, "object"), {}});
-    uses.push_back({"mask by cryptomatte", need({}, "cryptomatte"), {}});
-    return uses;
 }
 
 }  // namespace
@@ -137,7 +106,6 @@ GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraS
     } else {
         find_camera(info, reader);
     }
-    info.uses = judge(reader, info.camera.has_value());
     return info;
 }
 

@@ -16,18 +16,11 @@ namespace wrinkle {
 struct RoleStats {
     std::string role;
     std::vector<std::string> channels;
-    double min = 0, max = 0;    ///< of the components of valid pixels; 0 when there are none
+    double min = 0, max = 0;    ///< over the components of all valid pixels; 0 when there are no valid ones
     std::uint64_t invalid = 0;  ///< pixels with NaN or Inf; normals of length 0; depths outside (0, 1e9)
 };
 
-/// What a use of the frame still lacks.
-struct Readiness {
-    std::string use;                    ///< a layer kind, "lighting", "mask by object" ...
-    std::vector<std::string> missing;   ///< empty: ready
-    std::vector<std::string> defaults;  ///< roles the scene's constants stand in for
-};
-
-/// What `wrinkle info` prints.
+/// What `wrinkle info` prints of the frame itself; tools/readiness.h says what it is good for.
 struct GBufferInfo {
     std::filesystem::path file;
     RoleMap roles;  ///< writer, plane to channel, depth kind, cryptomatte layer
@@ -38,14 +31,13 @@ struct GBufferInfo {
     std::vector<RoleStats> stats;
     std::optional<FrameCamera> camera;
     std::string camera_problem;  ///< why there is no camera
-    std::vector<Readiness> uses;
     std::vector<std::string> cryptomatte_names;
 
     std::uint64_t pixels() const { return std::uint64_t{size.width} * size.height; }
 };
 
-/// Reads the whole frame. Without `camera`, FILE.camera.json beside the frame and then its header are tried.
-/// Throws Error when the frame cannot be read, or a camera that was asked for.
+/// Reads the whole frame. Without `camera`, it tries FILE.camera.json beside the frame, then the frame's header. Throws
+/// Error when the frame, or the camera that was given, cannot be read.
 GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraSource>& camera = std::nullopt,
                         int frame = 0);
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <span>
 
 #include "plan/layer_text.h"
@@ -8,42 +7,31 @@
 
 namespace wrinkle {
 
-std::size_t layers_together(const std::vector<Layer>& layers, std::size_t first) {
+std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first) {
+    const LayerKind& kind = kind_of(kinds, layers[first]);
     std::size_t count = 1;
-    if (!std::holds_alternative<DecalLayer>(layers[first].bump)) return count;
-    while (first + count < layers.size() && std::holds_alternative<DecalLayer>(layers[first + count].bump) &&
-           same_loop(layers[first], layers[first + count]))
+    while (kind.joins && first + count < layers.size() && &kind_of(kinds, layers[first + count]) == &kind &&
+           kind.joins(layers[first], layers[first + count]))
         ++count;
     return count;
 }
 
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     const Layer& layer = *layers.front();
+    const LayerKind& kind = emitter.kind(layer);
     Section section;
-    section.title = fmt::format("{} \"{}\"", layer.kind(), layer.name);
+    section.kind = kind.name;
+    section.title = fmt::format("{} \"{}\"", kind.name, layer.name);
     if (layers.size() > 1) section.title += fmt::format(" and {} more", layers.size() - 1);
     const std::string who = layer_label(layer);
-    for (const Layer* each : layers)
-        if (!std::isfinite(each->scale))
-            throw Error(fmt::format("{}: scale is {}; it must be finite", layer_label(*each), each->scale));
     const std::size_t known_textures = emitter.plan.textures.size();
     const std::string mask = emit_mask(emitter, layer, section);
-    LayerText text{emitter, layer, who, section};
-    const std::string bump = std::visit(
-        [&](const auto& l) -> std::string {
-            if constexpr (requires { emit(text, l); })
-                return emit(text, l);
-            else if constexpr (std::is_same_v<std::decay_t<decltype(l)>, DecalLayer>)
-                return emit_decals(text, layers);
-            else
-                return {};
-        },
-        layer.bump);
+    LayerText text{emitter, layers, layer, who, section};
+    const std::string bump = kind.emit ? kind.emit(text) : "";
     for (PlannedTexture& texture : std::span(emitter.plan.textures).subspan(known_textures)) texture.layer = who;
     std::string condition = "wr_any(active)";
-    if (emitter.options.switches)
-        condition = fmt::format("origins[{}] != 0 && {}", 4 * emitter.origin({.fourth = layer.scale}) + 3, condition);
-    section.body = mask + (emitter.options.skip ? "" : "        active = (mask)(-1);\n") +
+    if (emitter.options.switches) condition = fmt::format("{} != 0 && {}", text.strength(), condition);
+    section.body = mask + (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
     return section;
 }

@@ -15,32 +15,46 @@ std::array<std::array<double, 2>, 2> uv_matrix(const UvMapping& uv) {
     return {{{c * uv.scale[0], -s * uv.scale[1]}, {s * uv.scale[0], c * uv.scale[1]}}};
 }
 
+/// World to texture space: the gradients of s and of t.
+std::array<Vec3, 2> planar_rows(const UvMapping& uv) {
+    const auto m = uv_matrix(uv);
+    std::array<Vec3, 2> rows{};
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t k = 0; k < 3; ++k) rows[i][k] = m[i][0] * uv.axis_u[k] + m[i][1] * uv.axis_v[k];
+    return rows;
+}
+
 }  // namespace
 
-std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, const std::string& who, Section& section) {
-    const auto m = uv_matrix(uv);
-    if (uv.source == UvSource::aov) {
+std::string emit_texcoord(Emitter& emitter, const Layer& layer, const UvOf& uv_of, Wrap wrap, const std::string& who,
+                          Section& section) {
+    if (uv_of(layer).source == UvSource::aov) {
         emitter.need(who, {"uv.u", "uv.v"});
         section.reads.insert({"uv", "uv_valid"});
         section.operations += 12;
-        if (m[0][0] == 1 && m[1][1] == 1 && m[0][1] == 0 && uv.offset == std::array<double, 2>{})
-            return "        wr_texcoord c = uv;\n";
-        return fmt::format("        wr_texcoord c = wr_transform(uv, {}, {}, {}, {}, {}, {});\n", literal(m[0][0]),
-                           literal(m[0][1]), literal(m[1][0]), literal(m[1][1]), literal(uv.offset[0]),
-                           literal(uv.offset[1]));
+        const std::size_t first = emitter.numbers(layer, "uv matrix and offset", [uv_of](const Layer& l, const auto&) {
+            const UvMapping& uv = uv_of(l);
+            const auto m = uv_matrix(uv);
+            return std::vector{m[0][0], m[0][1], m[1][0], m[1][1], uv.offset[0], uv.offset[1]};
+        });
+        return fmt::format(
+            "        wr_texcoord c = wr_transform(uv, numbers[{}], numbers[{}], numbers[{}], numbers[{}], numbers[{}], "
+            "numbers[{}]);\n",
+            first, first + 1, first + 2, first + 3, first + 4, first + 5);
     }
     section.reads.insert({"p", "dp_dx", "dp_dy"});
     section.operations += 36;
-    Vec3 s{}, t{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        s[k] = m[0][0] * uv.axis_u[k] + m[0][1] * uv.axis_v[k];
-        t[k] = m[1][0] * uv.axis_u[k] + m[1][1] * uv.axis_v[k];
-    }
-    const std::size_t origin = emitter.origin({.axes = {s, t, Vec3{}},
-                                               .offset = {uv.offset[0], uv.offset[1], 0},
-                                               .period = wrap == Wrap::repeat ? 1.0 : 0.0});
-    return fmt::format("        wr_texcoord c = wr_planar(p, dp_dx, dp_dy, {}, {}, origins[{}], origins[{}]);\n",
-                       literal(s), literal(t), 4 * origin, 4 * origin + 1);
+    const std::size_t origin = emitter.origin(layer, [uv_of, wrap](const Layer& l) {
+        const UvMapping& uv = uv_of(l);
+        const auto rows = planar_rows(uv);
+        return Origin{.axes = {rows[0], rows[1], Vec3{}},
+                      .offset = {uv.offset[0], uv.offset[1], 0},
+                      .period = wrap == Wrap::repeat ? 1.0 : 0.0};
+    });
+    const std::string s = emitter.vector(layer, "ds/dp", [uv_of](const Layer& l) { return planar_rows(uv_of(l))[0]; });
+    const std::string t = emitter.vector(layer, "dt/dp", [uv_of](const Layer& l) { return planar_rows(uv_of(l))[1]; });
+    return fmt::format("        wr_texcoord c = wr_planar(p, dp_dx, dp_dy, {}, {}, origins[{}], origins[{}]);\n", s, t,
+                       4 * origin, 4 * origin + 1);
 }
 
 namespace {
@@ -49,7 +63,7 @@ namespace {
 std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
-    std::string text = "        real m = 1;\n";
+    std::string text = "        wr_real m = 1;\n";
     const auto factor = [&](const std::string& value) {
         text += fmt::format("        m *= {};\n", value);
         section.operations += 2;
@@ -57,17 +71,27 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
     if (mask.object) {
         emitter.need(who, {"object"});
         section.inputs.insert("object");
-        factor(fmt::format("wr_mask_object(wr_load(in_object, at.in), {})", literal(*mask.object)));
+        factor(
+            fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
+                        emitter.number(layer, "wr_mask object", [](const Layer& l) { return l.mask.object.value(); })));
     }
     if (mask.cryptomatte) {
         emitter.need(who, {"crypto.id0", "crypto.coverage0"});
-        text += "        real covered = 0;\n";
+        // A float holds half of a hash at a time.
+        const std::size_t hash =
+            emitter.numbers(layer, "wr_mask cryptomatte", [who](const Layer& l, const NumberSource& s) {
+                const std::uint32_t id = cryptomatte_hash(s.cryptomatte, l.mask.cryptomatte.value(), who);
+                return std::vector<double>{static_cast<double>(id >> 16), static_cast<double>(id & 0xffff)};
+            });
+        text += fmt::format(
+            "        wr_real covered = 0;\n        uint object_hash = (uint)numbers[{}] << 16 | (uint)numbers[{}];\n",
+            hash, hash + 1);
         for (int rank = 0; emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
             const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
             section.inputs.insert({id, coverage});
             text += fmt::format(
-                "        covered += wr_mask_cryptomatte(wr_load_floats({}, at.in), wr_load({}, at.in), {}u);\n",
-                identifier(id), identifier(coverage), emitter.cryptomatte_hash(*mask.cryptomatte, who));
+                "        covered += wr_mask_cryptomatte(wr_load_floats({}, at.in), wr_load({}, at.in), object_hash);\n",
+                identifier(id), identifier(coverage));
             section.operations += 3;
         }
         factor("wr_mask_channel(covered)");
@@ -89,7 +113,7 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
         return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
     };
     if (std::ranges::any_of(layers, anywhere)) return {};
-    std::string text = "        mask wanted = 0;\n";
+    std::string text = "        wr_mask wanted = 0;\n";
     for (const Layer* layer : layers) {
         text += "        {\n" + mask_of_planes(emitter, *layer, section) +
                 (layer->mask.invert ? "        m = 1 - m;\n" : "") + "        wanted = wanted | (m != 0);\n        }\n";
@@ -103,23 +127,26 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
     std::string text = mask_of_planes(emitter, layer, section);
     if (mask.texture) {
         const std::size_t number = emitter.texture({.file = mask.texture->file}, TexelKind::mask);
-        text += "        {\n" + emit_texcoord(emitter, mask.texture->uv, Wrap::repeat, who, section);
+        text += "        {\n" + emit_texcoord(
+                                    emitter, layer,
+                                    [](const Layer& l) -> const UvMapping& { return l.mask.texture.value().uv; },
+                                    Wrap::repeat, who, section);
         text += fmt::format(
             "        wr_texture t = wr_texture_at(texels, textures, {});\n"
             "        m *= wr_mask_channel(wr_texture_sample1(t, wr_repeat(c.st.x), wr_repeat(c.st.y), {}));\n        "
             "}}\n",
-            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(real)(0)");
+            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(wr_real)(0)");
         section.operations += 60;
     }
     if (mask.invert) text += "        m = 1 - m;\n";
     if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion: unknown is not "outside"
-        text += "        m = uv_valid ? m : (real)(0);\n";
+        text += "        m = uv_valid ? m : (wr_real)(0);\n";
     if (mask.channel && mask.invert) {
         const std::string value = fmt::format("wr_load({}, at.in)", identifier("channel:" + *mask.channel));
-        text += fmt::format("        m = {0} == {0} ? m : (real)(0);\n", value);
+        text += fmt::format("        m = {0} == {0} ? m : (wr_real)(0);\n", value);
     }
     section.reads.insert("valid");
-    text += "        mask active = valid & (m != 0);\n";
+    text += "        wr_mask active = valid & (m != 0);\n";
     return text;
 }
 

@@ -15,23 +15,25 @@ std::string grow_text(const Emitter& emitter, const MovedPoints& moved) {
     if (moved.text.empty()) return kIndent + "box = wr_grow(box, valid, p, axes);\n";
     const bool parallel = emitter.available.camera == CameraKind::parallel;
     std::string text = fmt::format(
-        "{0}vec3 v = {1};\n"
-        "{0}real distance = sqrt(wr_dot(p, p)), nearer = 0, farther = 0;\n{2}",
+        "{0}wr_vec3 v = {1};\n"
+        "{0}wr_real distance = sqrt(wr_dot(p, p)), nearer = 0, farther = 0;\n{2}",
         kIndent, to_viewer_text(emitter),
-        moved.by_normal
-            ? kIndent + "vec3 n = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), v));\n"
-            : "");
+        moved.by_normal ? kIndent +
+                              "wr_vec3 n = wr_normalize(wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), "
+                              "wr_to_real(nz)), v));\n"
+                        : "");
     text += moved.text;
     for (const char* way : {"nearer", "-farther"})
-        text += fmt::format("{}box = wr_grow(box, valid, {}, axes);\n", kIndent,
-                            parallel ? fmt::format("wr_fma(v, {}, p)", way)
-                                     : fmt::format("wr_scale(p, distance > 0 ? 1 - ({}) / distance : (real)(1))", way));
+        text +=
+            fmt::format("{}box = wr_grow(box, valid, {}, axes);\n", kIndent,
+                        parallel ? fmt::format("wr_fma(v, {}, p)", way)
+                                 : fmt::format("wr_scale(p, distance > 0 ? 1 - ({}) / distance : (wr_real)(1))", way));
     return text;
 }
 
 }  // namespace
 
-PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
+PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     const GeometryText geometry = geometry_text(emitter);
     const MovedPoints moved = moved_points(emitter, kIndent);
     std::vector<std::string> inputs = geometry.planes;
@@ -40,7 +42,8 @@ PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
     for (const std::string& plane : inputs)
         planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
     source += fmt::format(
-        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *axes, global float *bounds,
+        R"(kernel void wr_bin_tiles(constant const wr_camera *camera, constant const WR_SCALAR *numbers,
+    constant const WR_SCALAR *axes, global float *bounds,
     uint tiles, uint supers,
 {}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
 {{
@@ -51,8 +54,8 @@ PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
     for (uint row = corner.y; row < min(corner.y + WR_TILE_HEIGHT, rows); ++row)
         for (uint column = corner.x; column < min(corner.x + WR_TILE_WIDTH, width); column += WR_LANES) {{
             long here = (long)in_first + (long)row * width + column, pixels = in_pixels;
-            real x = wr_lane_number() + (real)(column + WR_R(0.5)), y = (real)(first_row + row + WR_R(0.5));
-{}            mask valid = {}{} & (x < width);
+            wr_real x = wr_lane_number() + (wr_real)(column + WR_R(0.5)), y = (wr_real)(first_row + row + WR_R(0.5));
+{}            wr_mask valid = {}{} & (x < width);
 {}            {}
 {}        }}
     wr_store_bounds(box, bounds, tiles, tile);
@@ -63,6 +66,41 @@ PlannedKernel emit_tiles(const Emitter& emitter, std::string& source) {
         moved.by_normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent),
         geometry.position, grow_text(emitter, moved));
     return {"wr_bin_tiles", inputs, {}, {}, 0};
+}
+
+PlannedKernel emit_bins(Emitter& emitter, std::string& source) {
+    const PlannedKernel tiles = emit_tiles(emitter, source);
+    const char* binned =
+        "global const float *boxes, global const float *bounds, global const float *groups, uint decals,\n"
+        "    global uint *entries, uint capacity, global uint *used";
+    source += fmt::format(
+        R"(kernel void wr_bin_parents(global const float *child_bounds, global float *bounds, uint parents)
+{{
+    if (get_global_id(0) < parents)
+        wr_bin_around(child_bounds, 16 * parents, get_global_id(0), bounds, parents);
+}}
+
+kernel void wr_bin_supers({0},
+    global const float *tile_bounds, uint tiles, global uint *lists)
+{{
+    wr_binned all = {{boxes, bounds, groups, decals}};
+    if (get_global_id(0) < tiles)
+        wr_bin_super(all, tile_bounds, tiles, get_global_id(0), lists, entries, capacity, used);
+}}
+
+kernel void wr_bin_lists({0},
+    global const float *child_bounds, uint parents, global const uint *parent_lists, global uint *child_lists,
+    global ushort *hits)
+{{
+    wr_binned all = {{boxes, bounds, groups, decals}};
+    if (get_global_id(0) < parents)
+        wr_bin_children(all, child_bounds, 16 * parents, get_global_id(0), parent_lists, child_lists, entries, hits,
+                        capacity, used);
+}}
+
+)",
+        binned);
+    return tiles;
 }
 
 }  // namespace wrinkle

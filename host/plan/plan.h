@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/layer_kind.h"
 #include "wrinkle/camera.h"
 #include "wrinkle/precision.h"
 #include "wrinkle/scene.h"
@@ -16,7 +18,7 @@
 namespace wrinkle {
 
 /// How a camera's pixels become positions.
-enum class CameraKind {
+enum class CameraKind : int {
     pinhole,   ///< one eye point; the pinhole form of the screen derivatives
     parallel,  ///< no eye point; the general 4x4 form
     general,   ///< anything else; the general form, positions from planes
@@ -68,6 +70,22 @@ struct Origin {
     bool low = false;   ///< what a float leaves of these four numbers instead of them
 };
 
+/// What numbers of a plan are taken from: any scene of the structure that was planned.
+struct NumberSource {
+    const Scene& scene;
+    const std::map<std::string, std::uint32_t>& cryptomatte;  ///< hashes of the known object names
+};
+
+/// Numbers of a scene that kernels read from a buffer, so that changing them compiles nothing.
+struct PlannedNumbers {
+    std::string name;       ///< for people: "scale of layer \"dents\""
+    std::size_t count = 0;  ///< of them, one after the other
+    std::function<std::vector<double>(const NumberSource&)> of;
+};
+/// Evaluates them. Throws Error, naming them, unless they are as many as planned, and finite as floats.
+std::vector<double> numbers_of(const PlannedNumbers& planned, const NumberSource& source);
+using PlannedOrigin = std::function<Origin(const NumberSource&)>;
+
 /// A texture as kernels sample it.
 enum class TexelKind { slope, height, mask, vector, volume, volume_smooth };
 struct PlannedTexture {
@@ -78,17 +96,26 @@ struct PlannedTexture {
     std::string layer{};                       ///< label of the first layer that uses it, for messages
 };
 
-/// A table of decals as kernels see it.
+/// The texture of a projector.
+struct ProjectedImage {
+    std::uint32_t texture = 0;  ///< number in the texture table
+    bool height = false;        ///< slopes are per unit of texture, not unitless
+};
+
+/// A projector that every pixel asks, as a layer of its own.
+struct PlannedDecal {
+    std::size_t layer = 0;  ///< of the scene
+    ProjectedImage image;
+    Projector (*row)(const Layer&) = nullptr;
+};
+
+/// A table of projectors, binned to tiles, as kernels see it.
 struct PlannedDecals {
+    std::size_t layer = 0;  ///< of the scene
     std::shared_ptr<const std::vector<Projector>> rows;
-    std::vector<std::uint32_t> order;  ///< of the rows in the device's table
-    struct Image {
-        std::uint32_t texture = 0;  ///< number in the texture table
-        bool height = false;        ///< slopes are per unit of texture, not unitless
-    };
-    std::vector<Image> images;          ///< of each row
-    std::vector<std::uint32_t> hashes;  ///< Cryptomatte, of each row; empty where no row has one
-    double scale = 1;                   ///< of the layer, signed
+    std::vector<std::uint32_t> order;    ///< of the rows in the device's table
+    std::vector<ProjectedImage> images;  ///< of each row
+    std::vector<std::uint32_t> hashes;   ///< Cryptomatte, of each row; empty where no row has one
 };
 
 /// One kernel: its planes in the order of its arguments. Scratch planes exist in split plans only.
@@ -112,10 +139,9 @@ struct Plan {
     std::vector<PlannedKernel> kernels;
     std::vector<std::string> inputs, outputs;
     std::vector<PlannedTexture> textures;
-    std::vector<Origin> origins;
-    std::vector<DecalLayer> decals;    ///< in the order of the decal table
-    std::vector<double> decal_scales;  ///< signed
-    std::vector<std::size_t> decal_textures;
+    std::vector<PlannedNumbers> numbers;
+    std::vector<PlannedOrigin> origins;
+    std::vector<PlannedDecal> decals;  ///< in the order of the kernels' buffer
     std::vector<PlannedDecals> tables;
     std::size_t projectors = 0;          ///< rows of all tables together
     std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors are binned to
@@ -126,6 +152,6 @@ struct Plan {
 };
 
 /// Throws Error naming the layer and the planes it lacks.
-Plan make_plan(const Scene& scene, const Available& available, const PlanOptions& options = {});
+Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available, const PlanOptions& options);
 
 }  // namespace wrinkle

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "plan/plan.h"
+#include <vector>
+
+#include "wrinkle/precision.h"
 
 namespace wrinkle {
 
-/// The variants in float that layer `index` has, from cheap to exact; standard is always among them.
-std::vector<Precision> layer_precisions(const Scene& scene, std::size_t index, CameraKind camera);
-
-/// Those of positions and screen derivatives.
+/// The variants of positions and screen derivatives; those of a layer are its kind's (scene/layer_kind.h).
 std::vector<Precision> geometry_precisions();
 
 /// The variant of `ladder` that serves `wanted`.

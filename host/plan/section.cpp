@@ -15,31 +15,31 @@ namespace wrinkle {
 
 const std::vector<Value>& values() {
     static const std::vector<Value> all{
-        {"valid", "mask", {""}},
-        {"marked", "real", {""}},
-        {"p", "vec3", {".x", ".y", ".z"}},
-        {"p_low", "vec3", {".x", ".y", ".z"}},
-        {"n", "vec3", {".x", ".y", ".z"}},
-        {"base", "vec3", {".x", ".y", ".z"}},
-        {"dp_dx", "vec3", {".x", ".y", ".z"}},
-        {"dp_dy", "vec3", {".x", ".y", ".z"}},
-        {"dn_dx", "vec3", {".x", ".y", ".z"}},
-        {"dn_dy", "vec3", {".x", ".y", ".z"}},
+        {"valid", "wr_mask", {""}},
+        {"marked", "wr_real", {""}},
+        {"p", "wr_vec3", {".x", ".y", ".z"}},
+        {"p_low", "wr_vec3", {".x", ".y", ".z"}},
+        {"n", "wr_vec3", {".x", ".y", ".z"}},
+        {"base", "wr_vec3", {".x", ".y", ".z"}},
+        {"dp_dx", "wr_vec3", {".x", ".y", ".z"}},
+        {"dp_dy", "wr_vec3", {".x", ".y", ".z"}},
+        {"dn_dx", "wr_vec3", {".x", ".y", ".z"}},
+        {"dn_dy", "wr_vec3", {".x", ".y", ".z"}},
         {"uv", "wr_texcoord", {".st.x", ".st.y", ".dx.x", ".dx.y", ".dy.x", ".dy.y"}},
-        {"uv_valid", "mask", {""}},
-        {"vertex_tb", "wr_frame_tb", {".t.x", ".t.y", ".t.z", ".b.x", ".b.y", ".b.z"}},
-        {"vertex_tb_valid", "mask", {""}},
-        {"g", "vec3", {".x", ".y", ".z"}},
-        {"dh_dp", "vec3", {".x", ".y", ".z"}},
-        {"lit", "vec3", {".x", ".y", ".z"}},
+        {"uv_valid", "wr_mask", {""}},
+        {"vertex_tb", "wr_tangents", {".t.x", ".t.y", ".t.z", ".b.x", ".b.y", ".b.z"}},
+        {"vertex_tb_valid", "wr_mask", {""}},
+        {"g", "wr_vec3", {".x", ".y", ".z"}},
+        {"dh_dp", "wr_vec3", {".x", ".y", ".z"}},
+        {"lit", "wr_vec3", {".x", ".y", ".z"}},
     };
     return all;
 }
 
 Precision Emitter::precision(const Layer& layer) const {
-    const auto index = static_cast<std::size_t>(&layer - scene.layers.data());
+    const std::size_t index = index_of(layer);
     const std::vector<Precision>& wanted = options.precision.layers;
-    return served(layer_precisions(scene, index, available.camera),
+    return served(layer_precisions(kinds, scene, index, available.camera),
                   wanted.empty() ? Precision::standard : wanted.at(index));
 }
 
@@ -66,8 +66,49 @@ std::size_t Emitter::volume(const VolumeLayer& layer, TexelKind kind) {
     return plan.textures.size() - 1;
 }
 
-std::size_t Emitter::origin(const Origin& origin) {
-    plan.origins.push_back(origin);
+std::vector<double> numbers_of(const PlannedNumbers& planned, const NumberSource& source) {
+    std::vector<double> values = planned.of(source);
+    if (values.size() != planned.count)
+        throw Error(fmt::format("{}: {} numbers; the pass is made for {}", planned.name, values.size(), planned.count));
+    for (const double value : values)
+        if (!std::isfinite(static_cast<float>(value)))
+            throw Error(
+                fmt::format("{} is {}; it must be finite, and within the range of a float", planned.name, value));
+    return values;
+}
+
+std::size_t Emitter::numbers(const Layer& layer, const std::string& what,
+                             std::function<std::vector<double>(const Layer&, const NumberSource&)> of) {
+    std::size_t first = 0;
+    for (const PlannedNumbers& known : plan.numbers) first += known.count;
+    PlannedNumbers planned{fmt::format("{} of {}", what, layer_label(layer)), 0,
+                           [index = index_of(layer), of = std::move(of)](const NumberSource& source) {
+                               return of(source.scene.layers.at(index), source);
+                           }};
+    planned.count = planned.of({scene, available.cryptomatte}).size();
+    numbers_of(planned, {scene, available.cryptomatte});
+    plan.numbers.push_back(std::move(planned));
+    return first;
+}
+
+std::string Emitter::number(const Layer& layer, const std::string& what, std::function<double(const Layer&)> of) {
+    return fmt::format("numbers[{}]", numbers(layer, what, [of = std::move(of)](const Layer& l, const NumberSource&) {
+                           return std::vector{of(l)};
+                       }));
+}
+
+std::string Emitter::vector(const Layer& layer, const std::string& what, std::function<Vec3(const Layer&)> of) {
+    return fmt::format("wr_v3(numbers + {})",
+                       numbers(layer, what, [of = std::move(of)](const Layer& l, const NumberSource&) {
+                           const Vec3 v = of(l);
+                           return std::vector(v.begin(), v.end());
+                       }));
+}
+
+std::size_t Emitter::origin(const Layer& layer, std::function<Origin(const Layer&)> of) {
+    plan.origins.push_back([index = index_of(layer), of = std::move(of)](const NumberSource& source) {
+        return of(source.scene.layers.at(index));
+    });
     return plan.origins.size() - 1;
 }
 
@@ -94,12 +135,13 @@ void Emitter::need(const std::string& who, const std::vector<std::string>& plane
                     listed(missing), listed(roles)));
 }
 
-std::uint32_t Emitter::cryptomatte_hash(const std::string& name, const std::string& who) const {
+std::uint32_t cryptomatte_hash(const std::map<std::string, std::uint32_t>& all, const std::string& name,
+                               const std::string& who) {
     if (name.size() == 9 && name[0] == '#' && name.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos)
         return static_cast<std::uint32_t>(std::stoul(name.substr(1), nullptr, 16));
-    if (const auto known = available.cryptomatte.find(name); known != available.cryptomatte.end()) return known->second;
+    if (const auto known = all.find(name); known != all.end()) return known->second;
     std::string names;
-    for (const auto& [other, hash] : available.cryptomatte) names += (names.empty() ? "" : ", ") + other;
+    for (const auto& [other, hash] : all) names += (names.empty() ? "" : ", ") + other;
     throw Error(fmt::format("{} names the Cryptomatte object \"{}\"; the file knows {}", who, name,
                             names.empty() ? "no names: give its hash as # and 8 hex digits" : names));
 }
@@ -113,18 +155,6 @@ std::string row_place(const DecalsLayer& table, std::size_t row) {
     if (table.file.empty()) return fmt::format("row {}", row);
     return line > 0 ? fmt::format("{}:{}", table.file.string(), line)
                     : fmt::format("{}: row {}", table.file.string(), row);
-}
-
-std::string literal(double value) {
-    if (!std::isfinite(value)) throw Error(fmt::format("a number of the scene is {}; it must be finite", value));
-    std::string digits = fmt::format("{:.17g}", value);
-    if (const std::string shorter = fmt::format("{}", value); std::stod(shorter) == value) digits = shorter;
-    if (digits.find_first_of(".en") == std::string::npos) digits += ".0";
-    return fmt::format("WR_R({})", digits);
-}
-
-std::string literal(const Vec3& v) {
-    return fmt::format("wr_v3((real)({}), (real)({}), (real)({}))", literal(v[0]), literal(v[1]), literal(v[2]));
 }
 
 std::string identifier(const std::string& plane) {

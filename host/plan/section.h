@@ -19,7 +19,8 @@ const std::vector<Value>& values();
 
 /// A step of the evaluation as kernel text, with the values it reads and those it sets.
 struct Section {
-    std::string title;
+    std::string title;      ///< for people; names of layers stay out of the text, so that they compile nothing
+    const char* kind = "";  ///< of a layer; what the text says of the section
     std::string body;
     std::set<std::string> reads, writes;
     std::set<std::string> inputs;  ///< planes
@@ -30,11 +31,15 @@ struct Section {
 
 /// What emitters share while a plan grows.
 struct Emitter {
+    LayerKinds kinds;
     const Scene& scene;
     const Available& available;
     const PlanOptions& options;
     Plan plan;
     std::string helpers;  ///< functions that precede the kernels
+    /// The user's own kernel text by the file that it is from, and what stands before it: a structure of parameters by
+    /// the name of the function that takes it.
+    std::map<std::string, std::string> user_files{}, user_parameters{};
 
     /// The variant that a layer of the scene is to have.
     Precision precision(const Layer& layer) const;
@@ -43,20 +48,26 @@ struct Emitter {
     std::size_t texture(const TextureUse& use, TexelKind kind);
     /// Number of a volume in the same table.
     std::size_t volume(const VolumeLayer& layer, TexelKind kind);
-    /// Number of the first of several origins.
-    std::size_t origin(const Origin& origin);
+    /// Index of the first of several numbers of a layer; `what` they are, for people to read.
+    std::size_t numbers(const Layer& layer, const std::string& what,
+                        std::function<std::vector<double>(const Layer&, const NumberSource&)> of);
+    /// Kernel text of one number of a layer, or of three as a vector.
+    std::string number(const Layer& layer, const std::string& what, std::function<double(const Layer&)> of);
+    std::string vector(const Layer& layer, const std::string& what, std::function<Vec3(const Layer&)> of);
+    /// Index of the first of four numbers of a layer that follow the eye.
+    std::size_t origin(const Layer& layer, std::function<Origin(const Layer&)> of);
+    /// The layer's place in the scene.
+    std::size_t index_of(const Layer& layer) const { return static_cast<std::size_t>(&layer - scene.layers.data()); }
+    const LayerKind& kind(const Layer& layer) const { return kind_of(kinds, layer); }
     /// Throws unless every plane is there; `who` starts the message.
     void need(const std::string& who, const std::vector<std::string>& planes) const;
-    /// Hash of a Cryptomatte name, or of "#" and its 8 hex digits; throws, listing the names, when the file has no
-    /// such.
-    std::uint32_t cryptomatte_hash(const std::string& name, const std::string& who) const;
     bool has(const std::string& plane) const { return available.planes.contains(plane); }
 };
 
-/// A number as kernel text, with all its digits.
-std::string literal(double value);
-/// `vec3` literal.
-std::string literal(const Vec3& v);
+/// Hash of a Cryptomatte name among those known, or of "#" and its 8 hex digits. Throws Error, `who` first, listing the
+/// names, when there is no such.
+std::uint32_t cryptomatte_hash(const std::map<std::string, std::uint32_t>& known, const std::string& name,
+                               const std::string& who);
 /// Name of a plane as an identifier; different planes have different ones.
 std::string identifier(const std::string& plane);
 
@@ -65,24 +76,27 @@ std::string layer_label(const Layer& layer);
 /// Where a row of a table comes from: decals.csv:12; of files without lines, and of rows made in code, its number.
 std::string row_place(const DecalsLayer& table, std::size_t row);
 
-/// Emits the layers [first, last) that one section holds: a single layer or consecutive decals.
+/// Emits the layers that one section holds: a single one, or several that share a loop.
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 /// How many layers from `first` on go into one section.
-std::size_t layers_together(const std::vector<Layer>& layers, std::size_t first);
+std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first);
 /// Kernel text that sets `m`, in [0,1], and the planes it reads.
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
 /// Kernel text that declares `wanted`, true at least where one of the layers is; nothing where that may be anywhere.
 std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section);
+/// The mapping that a layer's texture lies by; that of a mask's texture.
+using UvOf = std::function<const UvMapping&(const Layer&)>;
 /// Kernel text that declares the texture coordinates `c` of a mapping.
-std::string emit_texcoord(Emitter& emitter, const UvMapping& uv, Wrap wrap, const std::string& who, Section& section);
+std::string emit_texcoord(Emitter& emitter, const Layer& layer, const UvOf& uv_of, Wrap wrap, const std::string& who,
+                          Section& section);
 /// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` is needed; texture coordinates by `mapped`.
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const std::vector<const Layer*>& mapped);
 /// Kernel text that declares `dh`, the change of a height plane from pixel to pixel, 0 and marked where there is none.
 std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section);
 /// The kernel that measures the tiles of the frame, for the bins of decals.
-PlannedKernel emit_tiles(const Emitter& emitter, std::string& source);
+PlannedKernel emit_tiles(Emitter& emitter, std::string& source);
 /// The kernels that bin decals; gives the one that measures tiles, which reads planes.
-PlannedKernel emit_bins(const Emitter& emitter, std::string& source);
+PlannedKernel emit_bins(Emitter& emitter, std::string& source);
 /// Kernel text that sets dp_dx and dp_dy of p and n; `along`: p is that often the pixel's ray.
 std::string derivative_text(const Emitter& emitter, const std::string& along = "wr_along_ray(p, d)");
 /// Kernel text that turns n towards the viewer; `away` where it had to.

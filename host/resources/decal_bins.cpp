@@ -85,8 +85,8 @@ void DecalBins::make_room(std::uint32_t supers) {
     device_.queue.enqueueWriteBuffer(entries_, CL_TRUE, 0, decals_ * sizeof(cl_uint), numbers_.data());
 }
 
-cl::Event DecalBins::enqueue(const cl::Buffer& frame, const std::vector<cl::Buffer>& in, const Rows& rows,
-                             std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
+cl::Event DecalBins::enqueue(const cl::Buffer& frame, const cl::Buffer& numbers, const std::vector<cl::Buffer>& in,
+                             const Rows& rows, std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
                              const std::vector<cl::Event>& wait) {
     supers_a_row_ = supers_of(width, kSuperWidth);
     supers_ = supers_a_row_ * supers_of(rows.count, kSuperHeight);
@@ -99,8 +99,8 @@ cl::Event DecalBins::enqueue(const cl::Buffer& frame, const std::vector<cl::Buff
     device_.queue.enqueueFillBuffer(used_, cl_uint{decals_}, 0, sizeof(cl_uint), after.empty() ? nullptr : &after,
                                     &cleared);
     after = {cleared};
-    set(tiles_kernel_, 0, frame, axes_, tile_bounds_[0], tiles, cl_uint{supers_a_row_});
-    cl_uint next = 5;
+    set(tiles_kernel_, 0, frame, numbers, axes_, tile_bounds_[0], tiles, cl_uint{supers_a_row_});
+    cl_uint next = 6;
     for (const cl::Buffer& plane : in) tiles_kernel_.setArg(next++, plane);
     set(tiles_kernel_, next, cl_uint{in_first}, cl_uint{in_pixels}, cl_uint{rows.first}, cl_uint{width},
         cl_uint{rows.count});

@@ -31,8 +31,9 @@ public:
     void set_camera(const FrameConstants& constants, const Camera& camera, cl::Buffer projectors);
 
     /// Bins for rows of the frame; `in` holds the planes, `in_first` pixels of other rows before them.
-    cl::Event enqueue(const cl::Buffer& frame, const std::vector<cl::Buffer>& in, const Rows& rows, std::uint32_t width,
-                      std::uint32_t in_first, std::uint32_t in_pixels, const std::vector<cl::Event>& wait);
+    cl::Event enqueue(const cl::Buffer& frame, const cl::Buffer& numbers, const std::vector<cl::Buffer>& in,
+                      const Rows& rows, std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
+                      const std::vector<cl::Event>& wait);
 
     /// Sets the arguments of a kernel that evaluates: projectors, lists, entries, super blocks a row.
     void set_arguments(cl::Kernel& kernel, cl_uint& first) const;

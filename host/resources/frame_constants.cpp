@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "base/vec.h"
-#include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_frame) == 73 * sizeof(double) && sizeof(wr_decal) == 25 * sizeof(double) &&
-                  sizeof(wr_light) == 12 * sizeof(double) && sizeof(wr_projector) == 32 * sizeof(double) &&
-                  sizeof(wr_lighting) == 10 * sizeof(double),
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 12 * sizeof(double) &&
+                  sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
 void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }
@@ -48,16 +46,16 @@ Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_w
 
 }  // namespace
 
-void split_constants(wr_frame& frame) {
+void split_constants(wr_camera& frame) {
     put_low(frame.d0_low, frame.d0), put_low(frame.dx_low, frame.dx), put_low(frame.dy_low, frame.dy);
     put_low(frame.c0_low, frame.c0), put_low(frame.c1_low, frame.c1), put_low(frame.c2_low, frame.c2);
     put_low(frame.c3_low, frame.c3), put_low(frame.w_low, frame.w);
 }
 
-wr_frame camera_constants(const Camera& camera, Size size) {
+wr_camera camera_constants(const Camera& camera, Size size) {
     const Mat4 to_world = inverse(camera.view);
     const Vec3 eye = eye_of(to_world);
-    wr_frame frame{};
+    wr_camera frame{};
     frame.width = size.width;
     frame.height = size.height;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -100,29 +98,7 @@ wr_frame camera_constants(const Camera& camera, Size size) {
     return frame;
 }
 
-wr_decal decal_constants(const DecalLayer& decal, double scale, std::size_t texture, const Vec3& eye) {
-    const Vec3 x = normalize(decal.axis_x);
-    const Vec3 y = normalize(subtract(decal.axis_y, scaled(x, dot(x, decal.axis_y))));
-    const Vec3 z = cross(x, y);
-    wr_decal out{};
-    put(out.center, subtract(decal.center, eye));
-    put(out.to_box_x, scaled(x, 1 / decal.half_size[0]));
-    put(out.to_box_y, scaled(y, 1 / decal.half_size[1]));
-    put(out.to_box_z, scaled(z, 1 / decal.half_size[2]));
-    const bool height = decal.texture.content == Content::height;  // normals hold slopes, which have no unit
-    put(out.gradient_s, scaled(x, height ? scale / (2 * decal.half_size[0]) : scale));
-    put(out.gradient_t, scaled(y, height ? scale / (2 * decal.half_size[1]) : scale));
-    put(out.axis_z, z);
-    out.falloff = decal.falloff > 0 ? 1 / decal.falloff : 0;
-    const double width = decal.angle_fade[1] - decal.angle_fade[0];
-    out.fade_zero = decal.angle_fade[0];
-    out.fade_slope = 1 / std::max(width, 1e-6);  // equal angles: as good as a step
-    out.texture = static_cast<double>(texture);
-    return out;
-}
-
-wr_projector projector_constants(const Projector& row, const PlannedDecals::Image& image, double scale,
-                                 const Vec3& eye) {
+wr_projector projector_constants(const Projector& row, const ProjectedImage& image, double scale, const Vec3& eye) {
     wr_projector out{};
     put(out.center, subtract(row.center, eye));
     // Below this a half size has no reciprocal in float: such a decal covers no pixel, so it contributes nothing.
@@ -154,9 +130,9 @@ wr_projector projector_constants(const Projector& row, const PlannedDecals::Imag
 }
 
 /// Row `index` of a planned table, with its mask.
-wr_projector masked_projector(const PlannedDecals& table, std::size_t index, const Vec3& eye) {
+wr_projector masked_projector(const PlannedDecals& table, std::size_t index, double scale, const Vec3& eye) {
     const Projector& row = (*table.rows)[index];
-    wr_projector out = projector_constants(row, table.images[index], table.scale, eye);
+    wr_projector out = projector_constants(row, table.images[index], scale, eye);
     if (row.object) {
         out.mask = 1;
         out.object = *row.object;
@@ -169,11 +145,15 @@ wr_projector masked_projector(const PlannedDecals& table, std::size_t index, con
     return out;
 }
 
-FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const Camera& camera, Size size) {
+FrameConstants frame_constants(const Plan& plan, const NumberSource& source, const Camera& camera, Size size) {
     const Vec3 eye = eye_of(inverse(camera.view));
+    const std::vector<Layer>& layers = source.scene.layers;
     FrameConstants out;
     out.frame = camera_constants(camera, size);
-    for (const Origin& origin : plan.origins) {
+    for (const PlannedNumbers& planned : plan.numbers)
+        for (const double value : numbers_of(planned, source)) out.numbers.push_back(value);
+    for (const PlannedOrigin& planned : plan.origins) {
+        const Origin origin = planned(source);
         const auto add = [&](double value) {
             out.origins.push_back(origin.low ? value - static_cast<float>(value) : value);
         };
@@ -184,10 +164,14 @@ FrameConstants frame_constants(const Plan& plan, const Lighting& lighting, const
         }
         add(origin.fourth);
     }
-    for (std::size_t i = 0; i < plan.decals.size(); ++i)
-        out.decals.push_back(decal_constants(plan.decals[i], plan.decal_scales[i], plan.decal_textures[i], eye));
+    for (const PlannedDecal& decal : plan.decals) {
+        const Layer& layer = layers.at(decal.layer);
+        out.decals.push_back(projector_constants(decal.row(layer), decal.image, signed_scale(layer), eye));
+    }
     for (const PlannedDecals& table : plan.tables)
-        for (const std::uint32_t row : table.order) out.projectors.push_back(masked_projector(table, row, eye));
+        for (const std::uint32_t row : table.order)
+            out.projectors.push_back(masked_projector(table, row, signed_scale(layers.at(table.layer)), eye));
+    const Lighting& lighting = source.scene.lighting;
     for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
     put(out.lighting.ambient, lighting.ambient);
     put(out.lighting.albedo, lighting.albedo);

@@ -27,8 +27,8 @@ BinReport bin_report(const Scene& scene, const Frame& frame, int number) {
         reader.read_rows(0, size.height, impl.plan.tiles->inputs, into);
         planes.unmap();
         impl.bins
-            .enqueue(impl.frame, buffers, {.first = 0, .count = size.height}, size.width, 0, size.width * size.height,
-                     {})
+            .enqueue(impl.frame, impl.numbers, buffers, {.first = 0, .count = size.height}, size.width, 0,
+                     size.width * size.height, {})
             .wait();
         return impl.bins.read(size.width, size.height);
     });

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
 
+#include "layers/kinds.h"
 #include "plan/section.h"
 
 namespace wrinkle {
@@ -34,18 +34,11 @@ MaskMatches::MaskMatches(const Scene& scene) {
         if (layer.mask.object && !layer.mask.invert) wanted_.push_back({.layer = number, .index = *layer.mask.object});
         if (layer.mask.cryptomatte && !layer.mask.invert)
             wanted_.push_back({.layer = number, .name = *layer.mask.cryptomatte});
-        const auto* table = std::get_if<DecalsLayer>(&layer.bump);
-        if (table == nullptr || !table->rows) continue;
-        std::set<std::pair<std::string, double>> known;
-        for (std::size_t i = 0; i < table->rows->size(); ++i) {
-            const Projector& row = table->rows->at(i);
-            if (!row.object && row.cryptomatte.empty()) continue;
-            if (known.emplace(row.cryptomatte, row.object.value_or(0)).second)
-                wanted_.push_back({.layer = number,
-                                   .name = row.cryptomatte,
-                                   .index = row.object.value_or(0),
-                                   .place = row_place(*table, i)});
-        }
+        const LayerKind& kind = kind_of(layer_kinds(), layer);
+        if (!kind.objects) continue;
+        for (const NamedObject& object : kind.objects(layer))
+            wanted_.push_back(
+                {.layer = number, .name = object.cryptomatte, .index = object.index, .place = object.place});
     }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/frame_path.h"
+#include "layers/kinds.h"
 #include "plan/section.h"
 #include "wrinkle/error.h"
 
@@ -23,9 +24,10 @@ std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, cons
     };
     for (const Layer& layer : scene.layers) {
         if (layer.mask.cryptomatte) add(*layer.mask.cryptomatte, [&] { return layer_label(layer); });
-        const auto* table = std::get_if<DecalsLayer>(&layer.bump);
-        for (std::size_t i = 0; table != nullptr && table->rows && i < table->rows->size(); ++i)
-            add(table->rows->at(i).cryptomatte, [&] { return layer_label(layer) + ": " + row_place(*table, i); });
+        const LayerKind& kind = kind_of(layer_kinds(), layer);
+        if (!kind.objects) continue;
+        for (const NamedObject& object : kind.objects(layer))
+            add(object.cryptomatte, [&] { return layer_label(layer) + ": " + object.place; });
     }
     return hashes;
 }

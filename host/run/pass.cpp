@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "device/guarded.h"
+#include "layers/kinds.h"
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
 #include "wrinkle/error.h"
@@ -113,7 +114,7 @@ Pass accumulate_decals(const Device& device, std::span<const Layer> decals, cons
     Scene scene;
     scene.layers.assign(decals.begin(), decals.end());
     for (const Layer& layer : scene.layers)
-        if (!std::holds_alternative<DecalLayer>(layer.bump) && !std::holds_alternative<DecalsLayer>(layer.bump))
+        if (!kind_of(layer_kinds(), layer).without_normal)
             throw Error(fmt::format("layer \"{}\" is no decal", layer.name));
     return make_pass("accumulate decals", device, scene, frame, options,
                      {.split = options.split,

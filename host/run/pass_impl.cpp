@@ -6,8 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "io/volume_file.h"
-#include "plan/section.h"
+#include "layers/kinds.h"
 #include "resources/frame_constants.h"
 #include "resources/texture_heap.h"
 #include "wrinkle/error.h"
@@ -34,7 +33,7 @@ constexpr std::size_t kBlockWidth = 4;  // of kernels/surface/pixel_block.clh
 std::size_t groups_of(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
 
 /// A read-only buffer holding `count` numbers, narrowed to float unless the program computes in double.
-cl::Buffer numbers(const Device& device, const double* values, std::size_t count, bool fp64) {
+cl::Buffer reals(const Device& device, const double* values, std::size_t count, bool fp64) {
     const std::size_t size = std::max<std::size_t>(count, 1);
     std::vector<float> narrow(size);
     std::vector<double> wide(size);
@@ -49,7 +48,7 @@ cl::Buffer structs(const Device& device, const std::vector<Struct>& values, bool
     constexpr std::size_t members = sizeof(Struct) / sizeof(double);
     const std::vector<Struct> at_least_one(1);
     const auto& list = values.empty() ? at_least_one : values;
-    return numbers(device, reinterpret_cast<const double*>(list.data()), list.size() * members, fp64);
+    return reals(device, reinterpret_cast<const double*>(list.data()), list.size() * members, fp64);
 }
 
 template <class T>
@@ -74,13 +73,6 @@ void check_alignment(const cl::Buffer& buffer, const std::string& name, std::siz
                                 alignment));
 }
 
-void add_facts(Available& available, const Layer& layer, const VolumeLayer& volume) {
-    try {
-        const VolumeInfo info = volume_info(volume.file, volume.grid);
-        available.volumes[{volume.file.string(), volume.grid}] = {info.channels == 3, info.index_from_world};
-    } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
-}
-
 }  // namespace
 
 bool same_shape(const Frame& a, const Frame& b) {
@@ -92,17 +84,19 @@ Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options
     if (frame.size.width == 0 || frame.size.height == 0) throw Error("the frame has no pixels");
     Available available{frame.planes, camera_kind(frame.camera, frame.size), frame.ray_depth, frame.cryptomatte};
     for (const Layer& layer : scene.layers)
-        if (const auto* volume = std::get_if<VolumeLayer>(&layer.bump)) add_facts(available, layer, *volume);
+        if (const LayerKind& kind = kind_of(layer_kinds(), layer); kind.look) kind.look(layer, available);
     return make_plan(scene, available, options);
 }
 
-Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const PassOptions& wanted,
+Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const PassOptions& wanted,
                  const PlanOptions& plan_options)
     : device(on),
-      lighting(scene.lighting),
+      scene(of),
+      cryptomatte(shape.cryptomatte),
+      camera(shape.camera),
       size(shape.size),
       kind(camera_kind(shape.camera, shape.size)),
-      plan(plan_for(scene, shape, plan_options)),
+      plan(plan_for(of, shape, plan_options)),
       options(wanted) {
     if (options.lanes == 0) options.lanes = options.fp64 ? std::min(device.info.lanes, 8) : device.info.lanes;
     if (options.fp64 && !device.info.fp64)
@@ -123,19 +117,25 @@ Pass::Impl::Impl(const Device& on, const Scene& scene, const Frame& shape, const
             if (std::ranges::find(scratch_names, name) == scratch_names.end()) scratch_names.push_back(name);
     }
     build_seconds = seconds_since(build_start);
-    set_camera(shape.camera);
+    upload_constants();
     const std::size_t pixels = padded(std::size_t{size.width} * size.height);
     for (std::size_t i = 0; i < scratch_names.size(); ++i)
         scratch.emplace_back(device.context, CL_MEM_READ_WRITE, pixels * bytes_per_output());
 }
 
-void Pass::Impl::set_camera(const Camera& camera) {
-    if (camera_kind(camera, size) != kind)
+void Pass::Impl::set_camera(const Camera& other) {
+    if (camera_kind(other, size) != kind)
         throw Error("the new camera is of another kind (pinhole, parallel, general) than the one the pass is made for");
-    const FrameConstants constants = frame_constants(plan, lighting, camera, size);
+    camera = other;
+    upload_constants();
+}
+
+void Pass::Impl::upload_constants() {
+    const FrameConstants constants = frame_constants(plan, {scene, cryptomatte}, camera, size);
     const bool wide = options.fp64;
     frame = structs(device, std::vector{constants.frame}, wide);
-    origins = numbers(device, constants.origins.data(), constants.origins.size(), wide);
+    numbers = reals(device, constants.numbers.data(), constants.numbers.size(), wide);
+    origins = reals(device, constants.origins.data(), constants.origins.size(), wide);
     decals = structs(device, constants.decals, wide);
     light_setup = structs(device, std::vector{constants.lighting}, wide);
     lights = structs(device, constants.lights, wide);
@@ -160,13 +160,14 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     if (plan.tiles) {
         std::vector<cl::Buffer> planes;
         for (const std::string& name : plan.tiles->inputs) planes.push_back(plane(in, name, in_bytes));
-        after = {bins.enqueue(frame, planes, rows, size.width, static_cast<cl_uint>(before),
+        after = {bins.enqueue(frame, numbers, planes, rows, size.width, static_cast<cl_uint>(before),
                               static_cast<cl_uint>(in_pixels), wait)};
     }
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         cl::Kernel& kernel = kernels[k];
         cl_uint i = 0;
-        for (const cl::Buffer* buffer : {&frame, &origins, &texels, &textures, &decals, &light_setup, &lights})
+        for (const cl::Buffer* buffer :
+             {&frame, &numbers, &origins, &texels, &textures, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
         if (plan.tiles) bins.set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));

@@ -12,14 +12,16 @@ namespace wrinkle {
 /// A built plan and what its kernels read besides planes.
 struct Pass::Impl {
     Device device;
-    Lighting lighting;
+    Scene scene;  ///< the numbers are taken from it
+    std::map<std::string, std::uint32_t> cryptomatte;
+    Camera camera;
     Size size;
     CameraKind kind;
     Plan plan;
     PassOptions options;
     BuiltProgram built;
     std::vector<cl::Kernel> kernels;
-    cl::Buffer texels, textures, frame, origins, decals, light_setup, lights;
+    cl::Buffer texels, textures, frame, numbers, origins, decals, light_setup, lights;
     DecalBins bins;                   ///< of the plan's tables of decals, if it has any
     std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
     std::vector<std::string> scratch_names;
@@ -35,7 +37,9 @@ struct Pass::Impl {
         std::size_t first = 0, count = 0;
     };
 
-    void set_camera(const Camera& camera);
+    void set_camera(const Camera& other);
+    /// Evaluates what depends on the camera and on the scene's numbers, and has it on the device.
+    void upload_constants();
     /// Evaluates the rows, or only `some` of their work-items where any are given.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                       const std::vector<cl::Event>& wait, std::span<const Items> some = {});

@@ -23,22 +23,11 @@ void read_upscale(Table& table, TextureUse& texture);
 void read_any_texture(Table& table, TextureUse& texture);
 /// encoding, slopes
 void read_slope_encoding(Table& table, TextureUse& texture);
-/// What makes up a noise: all but scale, blend, footprint, mask and project.
+/// What makes up a noise: all but scale, blend, footprint, mask and project (scene/read_noise.cpp).
 void read_noise_source(Table& table, NoiseLayer& bump);
+/// planes of a triplanar projection, and what those without a source of their own show (scene/read_planes.cpp).
+void read_planes(Table& table, TriplanarLayer& bump);
 /// wrap, uv
 void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping);
-
-/// One function a kind.
-void read_normal_map(Table& table, Layer& layer);
-void read_height_map(Table& table, Layer& layer);
-void read_height_channel(Table& table, Layer& layer);
-void read_object_normal(Table& table, Layer& layer);
-void read_derivative_map(Table& table, Layer& layer);
-void read_triplanar(Table& table, Layer& layer);
-void read_noise(Table& table, Layer& layer);
-void read_decal(Table& table, Layer& layer);
-void read_decals(Table& table, Layer& layer);
-void read_volume(Table& table, Layer& layer);
-void read_parallax(Table& table, Layer& layer);
 
 }  // namespace wrinkle::scene

@@ -7,8 +7,7 @@
 #include "scene/figure.h"
 #include "scene/readers.h"
 
-namespace wrinkle {
-namespace scene {
+namespace wrinkle::scene {
 namespace {
 
 void read_figure(Table& table, Figure& out) {
@@ -50,16 +49,14 @@ void check_pictures(Table& root, const Figure& figure) {
 }
 
 }  // namespace
-}  // namespace scene
 
-Figure load_figure(const std::filesystem::path& file) {
-    using namespace scene;
+Figure load_figure(LayerKinds kinds, const std::filesystem::path& file) {
     const toml::table values = parse_scene_file(file);
     Document document{file.parent_path(), true, Problems(file.string())};
     Table root(document, values, "the figure", 1);
     Figure out;
     out.scene.file = file;
-    read_scene(root, out.scene);
+    read_scene(root, kinds, out.scene);
     if (auto table = root.table("figure", "[figure]")) read_figure(*table, out);
     for (Table& table : root.tables("panel")) read_panel(table, out, out.panels.emplace_back());
     if (out.panels.empty() && !root.is_bad("panel"))
@@ -78,6 +75,10 @@ Figure load_figure(const std::filesystem::path& file) {
     document.problems.throw_if_any();
     return out;
 }
+
+}  // namespace wrinkle::scene
+
+namespace wrinkle {
 
 Scene panel_scene(const Figure& figure, const Panel& panel) {
     Scene scene = figure.scene;

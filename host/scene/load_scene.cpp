@@ -8,15 +8,14 @@
 #include "wrinkle/error.h"
 #include "wrinkle/scene.h"
 
-namespace wrinkle {
-namespace scene {
+namespace wrinkle::scene {
 namespace {
 
-void read_layers(Table& root, std::vector<Layer>& out) {
+void read_layers(Table& root, LayerKinds kinds, std::vector<Layer>& out) {
     std::map<std::string, std::uint32_t> lines;
     for (Table& table : root.tables("layer")) {
         Layer layer;
-        read_layer(table, out.size() + 1, layer);
+        read_layer(table, kinds, out.size() + 1, layer);
         const std::uint32_t line = table.has("name") ? table.line_of("name") : table.line();
         const auto [earlier, is_new] = lines.emplace(layer.name, line);
         if (!is_new)
@@ -66,26 +65,24 @@ toml::table parse_scene_file(const std::filesystem::path& file) {
     throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer] and [camera]", name));
 }
 
-void read_scene(Table& root, Scene& out) {
+void read_scene(Table& root, LayerKinds kinds, Scene& out) {
     require_table(root, "gbuffer", "file = \"frame.exr\"");
     require_table(root, "camera", "from = \"exr\"");
     if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
     if (auto table = root.table("camera", "[camera]")) read_camera(*table, out.camera);
-    read_layers(root, out.layers);
+    read_layers(root, kinds, out.layers);
     read_lights(root, out.lighting);
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);
     if (auto table = root.table("budget", "[budget]")) read_budget(*table, out.budget);
 }
 
-}  // namespace scene
-
-Scene load_scene(const std::filesystem::path& file) {
-    const toml::table values = scene::parse_scene_file(file);
-    scene::Document document{file.parent_path(), true, Problems(file.string())};
-    scene::Table root(document, values, "the scene", 1);
+Scene load_scene(LayerKinds kinds, const std::filesystem::path& file) {
+    const toml::table values = parse_scene_file(file);
+    Document document{file.parent_path(), true, Problems(file.string())};
+    Table root(document, values, "the scene", 1);
     Scene out;
     out.file = file;
-    scene::read_scene(root, out);
+    read_scene(root, kinds, out);
     root.finish([](const std::string& key) {
         return key == "figure" || key == "panel" ? "makes this a figure; draw it with \"wrinkle figures\"" : "";
     });
@@ -93,4 +90,4 @@ Scene load_scene(const std::filesystem::path& file) {
     return out;
 }
 
-}  // namespace wrinkle
+}  // namespace wrinkle::scene

@@ -89,12 +89,4 @@ void read_noise_source(Table& table, NoiseLayer& bump) {
     if (auto shape = table.table("shape", "shape of " + table.where())) read_shape(*shape, bump.shape);
 }
 
-void read_noise(Table& table, Layer& layer) {
-    NoiseLayer bump;
-    read_noise_source(table, bump);
-    read_project(table, layer);
-    read_weight(table, layer);
-    layer.bump = bump;
-}
-
 }  // namespace wrinkle::scene

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/figure.h"
+#include "scene/layer_kind.h"
 #include "scene/table.h"
 #include "wrinkle/scene.h"
 
@@ -9,8 +11,12 @@ namespace wrinkle::scene {
 /// The file as TOML. Throws Error when it cannot be read, is not TOML or holds nothing.
 toml::table parse_scene_file(const std::filesystem::path& file);
 
+/// What wrinkle::load_scene and wrinkle::load_figure give, for these kinds of layers.
+Scene load_scene(LayerKinds kinds, const std::filesystem::path& file);
+Figure load_figure(LayerKinds kinds, const std::filesystem::path& file);
+
 /// The tables of a scene; the caller finishes `root`, which may hold more.
-void read_scene(Table& root, Scene& out);
+void read_scene(Table& root, LayerKinds kinds, Scene& out);
 
 void read_gbuffer(Table& table, GBufferSource& out);
 void read_camera(Table& table, CameraSource& out);
@@ -18,7 +24,7 @@ void read_output(Table& table, Output& out);
 void read_budget(Table& table, ErrorBudget& out);
 
 /// `number` counts the layers from 1.
-void read_layer(Table& table, std::size_t number, Layer& out);
+void read_layer(Table& table, LayerKinds kinds, std::size_t number, Layer& out);
 
 void read_lighting(Table& table, Lighting& out);
 void read_light(Table& table, Light& out);

@@ -5,6 +5,7 @@
 
 #include "budget/error_sample.h"
 #include "device/guarded.h"
+#include "layers/kinds.h"
 #include "run/condition.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
@@ -134,7 +135,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     report.warnings = matches.warnings();
     if (kept) report.budget = kept->budget.report();
     report.device = device.info;
-    for (const Layer& layer : scene.layers) report.layers += std::holds_alternative<ResolveLayer>(layer.bump) ? 0 : 1;
+    for (const Layer& layer : scene.layers) report.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
     report.read = clock.seconds(PhaseClock::read);
     report.build = clock.seconds(PhaseClock::build) - report.upload;
     report.write = clock.seconds(PhaseClock::write);

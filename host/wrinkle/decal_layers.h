@@ -24,7 +24,8 @@ namespace wrinkle {
 /// as engines do, to compare with.
 enum class DecalMode { surface_gradient, projector };
 
-/// Oriented box projector [Mik20 4.5]. The image spans the box's x and y; it is projected along z.
+/// Oriented box projector [Mik20 4.5]: a table of one row, a box. The image spans the box's x and y; it is projected
+/// along z.
 struct DecalLayer {
     static constexpr const char* kind = "decal";
     TextureUse texture;
@@ -33,6 +34,7 @@ struct DecalLayer {
     Vec3 half_size{0.5, 0.5, 0.5};          ///< metres
     double falloff = 0.1;                   ///< share of the half size over which it fades to the box's faces, [0,1]
     std::array<double, 2> angle_fade{0.25, 0.5};  ///< cosine of normal to axis_z: 0 below the first, 1 above the second
+    bool two_sided = false;                       ///< false: nothing on surfaces that face away from the projector
     DecalMode mode = DecalMode::surface_gradient;
 };
 

@@ -48,8 +48,8 @@ struct Result : Parameter {
 };
 
 /// What is the same for all rows. Kernel text sees a number as a WR_SCALAR, a vector as a vec3, a camera as `constant
-/// const wr_frame *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const wr_decal *`, a
-/// table's row as `global const wr_projector *`, a lattice as the `constant const WR_SCALAR *` that fractal sums take.
+/// const wr_camera *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const
+/// wr_projector *`, a lattice as the `constant const WR_SCALAR *` that fractal sums take.
 struct Setting {
     enum class Kind {
         number,
@@ -60,10 +60,9 @@ struct Setting {
         volume,          ///< a volume file, or FILE#GRID, for trilinear samples
         smooth_volume,   ///< ... for B-splines
         vector_volume,   ///< ... of 3-vectors; the others are of numbers
-        projector,       ///< center, axis_x, axis_y, half_size: 12 numbers; then falloff, angle_fade as cosines: 3 more
-        table_row,  ///< shape (0 box, 1 sphere, 2 cone) and the same 12 numbers; then falloff x, y, z, angle_fade as
-                    ///< cosines, two_sided (0, 1): 6 more
-        lattice,    ///< frequency of the first octave, lacunarity
+        projector,       ///< shape (0 box, 1 sphere, 2 cone), center, axis_x, axis_y, half_size: 13 numbers; then
+                         ///< falloff x, y, z, angle_fade as cosines, two_sided (0, 1): 6 more
+        lattice,         ///< frequency of the first octave, lacunarity
     };
     std::string name;
     Kind kind = Kind::number;

@@ -28,7 +28,7 @@ using reference::Cell;
 using reference::Octaves;
 using Value = reference::NoiseValue<real>;
 
-constexpr real difference_margin = 1e-2L;  // several steps of a difference
+constexpr real difference_margin = 1e-2L;  // in cells; several times the step of a difference
 
 const std::map<std::string, Cases (*)()>& registry() {
     static const std::map<std::string, Cases (*)()> all{
@@ -42,11 +42,6 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"combine_towards", combine_towards_cases},
         {"combine_udn", [] { return combine_cases(reference::Blending::udn); }},
         {"combine_whiteout", [] { return combine_cases(reference::Blending::whiteout); }},
-        {"decal_angle_fade", [] { return decal_box_cases(); }},
-        {"decal_bumped_axis", decal_gradient_cases},
-        {"decal_gradient", decal_gradient_cases},
-        {"decal_locate", [] { return decal_box_cases(); }},
-        {"decal_step", [] { return decal_box_cases(); }},
         {"displace", displace_cases},
         {"displace_curved", displace_curved_cases},
         {"facing_normal", facing_cases},
@@ -69,6 +64,7 @@ const std::map<std::string, Cases (*)()>& registry() {
         {"planar_texcoord", planar_cases},
         {"project_to_texture", project_to_texture_cases},
         {"projector_angle_fade", projector_cases},
+        {"projector_bumped_axis", projector_golden_cases},
         {"projector_gradient", projector_cases},
         {"projector_locate", projector_cases},
         {"projector_step", projector_cases},

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tests/io/files.h"
+#include "tools/readiness.h"
 
 namespace wrinkle {
 namespace {
@@ -11,9 +12,10 @@ namespace {
 using namespace test;
 using Names = std::vector<std::string>;
 
-const Readiness& use_of(const GBufferInfo& info, const std::string& use) {
-    const auto found = std::ranges::find(info.uses, use, &Readiness::use);
-    EXPECT_NE(found, info.uses.end()) << use;
+Readiness use_of(const GBufferInfo& info, const std::string& use) {
+    const std::vector<Readiness> uses = readiness(info);
+    const auto found = std::ranges::find(uses, use, &Readiness::use);
+    EXPECT_NE(found, uses.end()) << use;
     return *found;
 }
 

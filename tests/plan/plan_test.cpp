@@ -12,7 +12,7 @@ TEST(Plan, OfNoLayersOnlyDecodesAndWrites) {
     EXPECT_EQ(plan.outputs, (Names{"normal.x", "normal.y", "normal.z"}));
     EXPECT_EQ(titles(plan), (Names{"decode the G-buffer", "write"}));
     for (const char* part :
-         {"dp_dx", "in_uv", "in_object", "wr_fractal", "wr_texture", "wr_light_surface", "wr_decal_"})
+         {"dp_dx", "in_uv", "in_object", "wr_fractal", "wr_texture", "wr_light_surface", "wr_projector_"})
         EXPECT_FALSE(mentions(plan, part)) << part;
     EXPECT_TRUE(plan.textures.empty() && plan.origins.empty() && plan.decals.empty());
     EXPECT_FALSE(plan.neighbours);
@@ -56,7 +56,7 @@ TEST(Plan, DerivesTextureCoordinatesWhereMasksWantThem) {
         scene.output.marked = marked;
         Available bare = everything();
         std::erase_if(bare.planes, [](const std::string& name) { return name.starts_with("d"); });
-        bare.planes.insert("depth");  // no derivatives: from neighbours
+        bare.planes.insert("depth");  // without planes of derivatives, they come from neighbours
         return mentions(make_plan(scene, bare, options), "usable = uv_valid & wanted");
     };
     EXPECT_TRUE(wanted({woven}));

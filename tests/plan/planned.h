@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "plan/plan.h"
+#include "layers/kinds.h"
 #include "wrinkle/error.h"
 #include "wrinkle/gbuffer.h"
 
-/// Scenes to plan, frames to plan them for, and what to ask of plans.
+/// Scenes to plan, frames to plan them for, and checks of plans.
 namespace wrinkle::test {
 
 inline Available everything() {
@@ -43,7 +43,7 @@ inline Scene scene_of(std::vector<Layer> layers) {
     return scene;
 }
 
-/// The kernels without the list of concept files before them.
+/// The text of a plan's kernels, without the includes before it.
 inline std::string kernels(const Plan& plan) { return plan.source.substr(plan.source.rfind("#include")); }
 inline bool mentions(const Plan& plan, const std::string& text) {
     return kernels(plan).find(text) != std::string::npos;
@@ -55,6 +55,16 @@ inline std::vector<std::string> titles(const Plan& plan) {
     std::vector<std::string> list;
     for (const SectionSummary& section : plan.sections) list.push_back(section.title);
     return list;
+}
+
+/// The numbers of a plan whose description holds `what`, in order.
+inline std::vector<double> numbers(const Plan& plan, const Scene& scene, const std::string& what) {
+    const Available all = everything();
+    std::vector<double> found;
+    for (const PlannedNumbers& planned : plan.numbers)
+        if (planned.name.find(what) != std::string::npos)
+            for (const double value : numbers_of(planned, {scene, all.cryptomatte})) found.push_back(value);
+    return found;
 }
 
 inline std::string refusal(const Scene& scene, const Available& available) {

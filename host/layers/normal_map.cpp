@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/layer_text.h"
+#include "layers/common.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
 
-constexpr double kFrame = 70, kCombine = 90, kTaps = 240;  // expected operations
+constexpr double kFrame = 70, kCombine = 90;  // expected operations
 
 const char* combine_function(Combine combine) {
     switch (combine) {
@@ -57,30 +57,49 @@ Vec3 plane_axis(const UvMapping& uv) {
     return axis;
 }
 
-std::string emit_taps(LayerText& at, const HeightMapLayer& l) {
-    if (l.texture.wrap == Wrap::clamp) throw Error(at.who + ": upscale = \"taps\" repeats; wrap must not be \"clamp\"");
-    at.section.operations += kTaps;
-    return at.located(l.texture, TexelKind::height, l.uv) +
-           fmt::format("        vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n", at.lod("c.dx", "c.dy")) +
-           at.slopes("from_screen_slope", "dh");
+void read(scene::Table& table, Layer& layer) {
+    NormalMapLayer bump;
+    scene::read_texture_file(table, bump.texture);
+    scene::read_green(table, bump.texture);
+    scene::read_mapped(table, bump.texture, bump.uv);
+    table.choose("combine", bump.combine,
+                 {{"surface_gradient", Combine::surface_gradient},
+                  {"whiteout", Combine::whiteout},
+                  {"udn", Combine::udn},
+                  {"rnm", Combine::rnm},
+                  {"linear", Combine::linear}});
+    table.choose(
+        "frame", bump.frame,
+        {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"tangents", TangentSource::planes}});
+    if (bump.frame == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
+        table.complain("frame",
+                       "is \"tangents\", which belongs to the UV pass as it is: uv must not be planar or turn");
+    scene::read_weight(table, layer);
+    layer.bump = bump;
 }
 
-}  // namespace
-
-std::string emit(LayerText& at, const NormalMapLayer& l) {
-    std::string text = at.textured(l.texture, l.uv);
+std::string emit(LayerText& at) {
+    const auto& l = std::get<NormalMapLayer>(at.layer.bump);
+    std::string text = at.textured(l.texture);
     const bool planes = vertex_frame(at, l);
     if (planes) {
         at.section.reads.insert({"vertex_tb", "vertex_tb_valid"});
-        for (const std::size_t i : {0u, 1u})  // a mirrored texture
-            if (l.uv.scale[i] < 0) text += fmt::format("        slope.{0} = -slope.{0};\n", i == 0 ? 'x' : 'y');
-        text += "        m = vertex_tb_valid ? m : (real)(0);\n";
+        const std::size_t mirror = at.emitter.numbers(at.layer, "mirroring by uv", [](const Layer& layer, const auto&) {
+            const UvMapping& uv = own_uv(layer);
+            return std::vector<double>{uv.scale[0] < 0 ? -1.0 : 1.0, uv.scale[1] < 0 ? -1.0 : 1.0};
+        });
+        text += fmt::format(
+            "        slope.x *= numbers[{}], slope.y *= numbers[{}];\n"
+            "        m = vertex_tb_valid ? m : (wr_real)(0);\n",
+            mirror, mirror + 1);
         at.section.operations += 8;
     } else {
-        text += fmt::format("        wr_frame_tb f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
+        text += fmt::format("        wr_tangents f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
         at.section.operations += kFrame;
         if (l.uv.source == UvSource::planar)
-            text += fmt::format("        m = wr_has_planar_frame(n, {}) ? m : (real)(0);\n", literal(plane_axis(l.uv)));
+            text += fmt::format(
+                "        m = wr_has_planar_frame(n, {}) ? m : (wr_real)(0);\n",
+                at.vector("axis of the planar uv", [](const Layer& layer) { return plane_axis(own_uv(layer)); }));
     }
     const char* frame = planes ? "vertex_tb" : "f";
     if (l.combine == Combine::surface_gradient)
@@ -89,16 +108,21 @@ std::string emit(LayerText& at, const NormalMapLayer& l) {
     at.section.operations += kCombine;
     at.section.reads.insert("dh_dp");
     return text + fmt::format(
-                      "        vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
-                      "        vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (real)({}));\n"
+                      "        wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                      "        wr_vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (wr_real)({}));\n"
                       "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
                       frame, at.strength(), combine_function(l.combine));
 }
 
-std::string emit(LayerText& at, const HeightMapLayer& l) {
-    if (l.texture.upscale == Upscale::taps) return emit_taps(at, l);
-    std::string text = at.textured(l.texture, l.uv);
-    return text + at.slopes("scale_dependent", "c.dx, c.dy, slope");
+constexpr const char* tangent_roles[] = {"uv", "tangent", "tangent_sign or bitangent"};
+constexpr LayerUse uses[] = {{"", layers::uv_role}, {"frame = \"tangents\"", tangent_roles}};
+
+}  // namespace
+
+const LayerKind& layers::normal_map() {
+    static constexpr LayerKind row{
+        .name = NormalMapLayer::kind, .read = read, .emit = emit, .uses = uses, .variants = layers::standard_and_exact};
+    return row;
 }
 
 }  // namespace wrinkle

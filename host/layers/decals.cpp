@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
+#include "layers/common.h"
 #include "plan/decal_order.h"
-#include "plan/layer_text.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -14,10 +15,37 @@ namespace {
 
 constexpr double kDecal = 90;  // expected operations, for the one decal that a pixel of an average table lies in
 
+void read(scene::Table& table, Layer& layer) {
+    DecalsLayer bump;
+    table.require("textures");
+    for (scene::Table& each : table.tables("textures")) {
+        TextureUse& texture = bump.textures.emplace_back();
+        each.rename(fmt::format("texture {} of {}", bump.textures.size() - 1, table.where()));
+        each.require("file");
+        each.read_file("file", texture.file);
+        each.choose("content", texture.content,
+                    {{"height", Content::height}, {"normal", Content::normal}, {"slope", Content::slope}});
+        scene::read_green(each, texture);
+        if (texture.content == Content::height && each.has("y") && !each.is_bad("content"))
+            each.complain("y", "has an effect only with content = \"normal\" or \"slope\"; remove it or set that");
+        each.finish();
+    }
+    if (table.has("textures") && bump.textures.empty() && !table.is_bad("textures"))
+        table.complain("textures", "must list at least one { file = \"...\" }");
+    table.require("file");
+    if (table.read_file("file", bump.file) && !bump.textures.empty()) {
+        try {
+            bump.rows = std::make_shared<const std::vector<Projector>>(load_decals(bump.file, bump.textures.size()));
+        } catch (const Error& error) { table.complain("file", fmt::format("cannot be used:\n{}", error.what())); }
+    }
+    scene::read_weight(table, layer);
+    layer.bump = std::move(bump);
+}
+
 /// Gives every row its texture: one for each region of an image that is used, wrapped as it is used.
-std::vector<PlannedDecals::Image> plan_images(Plan& plan, const DecalsLayer& layer, const std::string& who) {
+std::vector<ProjectedImage> plan_images(Plan& plan, const DecalsLayer& layer, const std::string& who) {
     std::map<std::tuple<std::uint32_t, std::array<double, 4>, Wrap>, std::uint32_t> known;
-    std::vector<PlannedDecals::Image> images;
+    std::vector<ProjectedImage> images;
     images.reserve(layer.rows->size());
     for (const Projector& row : *layer.rows) {
         if (row.texture >= layer.textures.size())
@@ -55,10 +83,11 @@ std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& ta
         const std::string& name = rows[i].cryptomatte;
         const auto [found, is_new] = hashes.try_emplace(name);
         if (is_new && !name.empty())
-            found->second = at.emitter.cryptomatte_hash(name, at.who + ": " + row_place(layer, i));
+            found->second =
+                cryptomatte_hash(at.emitter.available.cryptomatte, name, at.who + ": " + row_place(layer, i));
         table.hashes.push_back(found->second);
     }
-    text += "                    if (decal->mask == 2) {\n                        real covered = 0;\n";
+    text += "                    if (decal->mask == 2) {\n                        wr_real covered = 0;\n";
     for (int rank = 0; at.emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
         const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
         at.section.inputs.insert({id, coverage});
@@ -70,23 +99,36 @@ std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& ta
     return text + "                        weight *= wr_mask_channel(covered);\n                    }\n";
 }
 
-}  // namespace
+/// The objects that rows are meant for, each with the first row that names it.
+std::vector<NamedObject> objects(const Layer& layer) {
+    const auto& table = std::get<DecalsLayer>(layer.bump);
+    std::vector<NamedObject> found;
+    std::set<std::pair<std::string, double>> known;
+    for (std::size_t i = 0; table.rows && i < table.rows->size(); ++i) {
+        const Projector& row = table.rows->at(i);
+        if (!row.object && row.cryptomatte.empty()) continue;
+        if (known.emplace(row.cryptomatte, row.object.value_or(0)).second)
+            found.push_back({row.cryptomatte, row.object.value_or(0), row_place(table, i)});
+    }
+    return found;
+}
 
-std::string emit(LayerText& at, const DecalsLayer& l) {
+std::string emit(LayerText& at) {
+    const auto& l = std::get<DecalsLayer>(at.layer.bump);
     if (!l.rows || l.rows->empty()) return {};
     Plan& plan = at.emitter.plan;
     const std::size_t first = plan.projectors, last = first + l.rows->size();
     PlannedDecals& table = plan.tables.emplace_back();
+    table.layer = at.emitter.index_of(at.layer);
     table.rows = l.rows;
     table.order = decal_order(*l.rows);
     table.images = plan_images(plan, l, at.who);
-    table.scale = at.layer.blend == Blend::subtract ? -at.layer.scale : at.layer.scale;
     plan.projectors = last;
 
     // Row numbers stand in the text only where they must: a table of another length is the same program.
-    const auto is_table = [](const Layer& layer) { return std::holds_alternative<DecalsLayer>(layer.bump); };
+    const auto is_binned = [&](const Layer& layer) { return at.emitter.kind(layer).binned; };
     const std::string another_table =
-        std::ranges::count_if(at.emitter.scene.layers, is_table) > 1
+        std::ranges::count_if(at.emitter.scene.layers, is_binned) > 1
             ? fmt::format("                    if (number < {}u || number >= {}u) continue;  // of another layer\n",
                           first, last)
             : "";
@@ -98,11 +140,11 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += kDecal + sample_cost({});
     return fmt::format(
-        R"(        vec3 sum = wr_zero3();
-        index tile = wr_tile_number(wr_index(at.x), wr_index(at.y) - (int)first_row, (int)supers);
-        for (mask left = active; wr_any(left);) {{
+        R"(        wr_vec3 sum = wr_zero3();
+        wr_index tile = wr_tile_number(wr_to_index(at.x), wr_to_index(at.y) - (int)first_row, (int)supers);
+        for (wr_mask left = active; wr_any(left);) {{
             int bin = wr_first_tile(tile, left);
-            mask here = left & wr_mask(tile == bin);
+            wr_mask here = left & wr_to_mask(tile == bin);
             left = left & !here;
             uint begin = lists[WR_LIST_WORDS * bin + WR_LIST_FIRST];
             uint end = begin + lists[WR_LIST_WORDS * bin + WR_LIST_COUNT];
@@ -114,11 +156,11 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
                     uint number = entries[from + wr_first_bit(touching)];
 {}                    global const wr_projector *decal = projectors + number;
                     wr_projected in = wr_project(decal, p);
-                    mask touched = here & in.inside;
-                    real weight = touched ? wr_projector_falloff(decal, in){} : (real)(0);
+                    wr_mask touched = here & in.inside;
+                    wr_real weight = touched ? wr_projector_falloff(decal, in){} : (wr_real)(0);
 {}                    if (!wr_any(weight != 0)) continue;
                     wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
-                    real lod = {};
+                    wr_real lod = {};
                     sum = wr_projector_blend(decal, in, wr_projector_slope(t, decal, in, lod, weight != 0), weight, sum);
                 }}
             }}
@@ -131,39 +173,16 @@ std::string emit(LayerText& at, const DecalsLayer& l) {
             : "0");
 }
 
-PlannedKernel emit_bins(const Emitter& emitter, std::string& source) {
-    const PlannedKernel tiles = emit_tiles(emitter, source);
-    const char* binned =
-        "global const float *boxes, global const float *bounds, global const float *groups, uint decals,\n"
-        "    global uint *entries, uint capacity, global uint *used";
-    source += fmt::format(
-        R"(kernel void wr_bin_parents(global const float *child_bounds, global float *bounds, uint parents)
-{{
-    if (get_global_id(0) < parents)
-        wr_bin_around(child_bounds, 16 * parents, get_global_id(0), bounds, parents);
-}}
+}  // namespace
 
-kernel void wr_bin_supers({0},
-    global const float *tile_bounds, uint tiles, global uint *lists)
-{{
-    wr_binned all = {{boxes, bounds, groups, decals}};
-    if (get_global_id(0) < tiles)
-        wr_bin_super(all, tile_bounds, tiles, get_global_id(0), lists, entries, capacity, used);
-}}
-
-kernel void wr_bin_lists({0},
-    global const float *child_bounds, uint parents, global const uint *parent_lists, global uint *child_lists,
-    global ushort *hits)
-{{
-    wr_binned all = {{boxes, bounds, groups, decals}};
-    if (get_global_id(0) < parents)
-        wr_bin_children(all, child_bounds, 16 * parents, get_global_id(0), parent_lists, child_lists, entries, hits,
-                        capacity, used);
-}}
-
-)",
-        binned);
-    return tiles;
+const LayerKind& layers::decals() {
+    static constexpr LayerKind row{.name = DecalsLayer::kind,
+                                   .read = read,
+                                   .emit = emit,
+                                   .without_normal = true,
+                                   .binned = true,
+                                   .objects = objects};
+    return row;
 }
 
 }  // namespace wrinkle

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/vec.h"
+#include "layers/common.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kDecal = 75, kMixed = 140;  // expected operations
+
+const DecalLayer& decal_of(const Layer& layer) { return std::get<DecalLayer>(layer.bump); }
+
+void read(scene::Table& table, Layer& layer) {
+    DecalLayer bump;
+    bump.texture.wrap = Wrap::clamp;
+    scene::read_any_texture(table, bump.texture);
+    table.require("center");
+    table.read("center", bump.center);
+    table.read("axis_x", bump.axis_x);
+    table.read("axis_y", bump.axis_y);
+    if (!table.is_bad("axis_x") && !table.is_bad("axis_y")) {
+        if (parallel(bump.axis_x, bump.axis_y)) {
+            table.complain(table.has("axis_y") ? "axis_y" : "axis_x",
+                           "must not make axis_x and axis_y parallel, and neither may be zero");
+        } else {
+            bump.axis_x = normalize(bump.axis_x);
+            const Vec3 axis_z = normalize(cross(bump.axis_x, normalize(bump.axis_y)));
+            bump.axis_y = cross(axis_z, bump.axis_x);
+        }
+    }
+    table.read("half_size", bump.half_size, scene::positive);
+    table.read("falloff", bump.falloff, scene::zero_to_one);
+    std::array<double, 2> degrees{};
+    if (table.read("angle_fade", degrees, {.low = 0, .high = 180})) {
+        if (degrees[0] > degrees[1])
+            table.complain("angle_fade", "must be [full below, zero above] in degrees, the smaller angle first");
+        const auto cosine = [](double angle) { return std::cos(angle * std::numbers::pi / 180); };
+        bump.angle_fade = {cosine(degrees[1]), cosine(degrees[0])};
+    }
+    table.read("two_sided", bump.two_sided);
+    table.choose("mode", bump.mode,
+                 {{"surface_gradient", DecalMode::surface_gradient}, {"projector", DecalMode::projector}});
+    scene::read_weight(table, layer);
+    layer.bump = bump;
+}
+
+/// The decal as a row of a table.
+Projector row(const Layer& layer) {
+    const DecalLayer& decal = decal_of(layer);
+    return {.center = decal.center,
+            .axis_x = decal.axis_x,
+            .axis_y = decal.axis_y,
+            .half_size = decal.half_size,
+            .falloff = {decal.falloff, decal.falloff, decal.falloff},
+            .angle_fade = decal.angle_fade,
+            .two_sided = decal.two_sided};
+}
+
+/// Same mask, and the same way to sample.
+bool joins(const Layer& a, const Layer& b) {
+    const bool same_mask = !a.mask.texture && !b.mask.texture && a.mask.object == b.mask.object &&
+                           a.mask.cryptomatte == b.mask.cryptomatte && a.mask.channel == b.mask.channel &&
+                           a.mask.invert == b.mask.invert;
+    const TextureUse &ta = decal_of(a).texture, &tb = decal_of(b).texture;
+    return same_mask && decal_of(a).mode == decal_of(b).mode && a.footprint == b.footprint &&
+           texel_kind(ta) == texel_kind(tb) && ta.wrap == tb.wrap;
+}
+
+std::string emit(LayerText& at) {
+    Plan& plan = at.emitter.plan;
+    const std::size_t first = plan.decals.size();
+    for (const Layer* layer : at.layers) {
+        const TextureUse& texture = decal_of(*layer).texture;
+        const auto number = static_cast<std::uint32_t>(at.emitter.texture(texture, texel_kind(texture)));
+        plan.decals.push_back({at.emitter.index_of(*layer), {number, texture.content == Content::height}, row});
+        at.section.operations += kDecal + sample_cost(texture);
+    }
+    const bool facing = at.emitter.options.view_footprint;
+    const bool mixed = decal_of(at.layer).mode == DecalMode::projector;
+    if (mixed && facing) throw Error(at.who + ": mode = \"projector\" mixes normals, and this pass knows none");
+    at.section.reads.insert({"p", "dh_dp"});
+    at.section.writes.insert(mixed ? "g" : "dh_dp");
+    if (mixed) {
+        at.section.reads.insert("g");
+        at.section.operations += static_cast<double>(at.layers.size()) * kMixed;
+    }
+    if (!facing) at.section.reads.insert("n");
+    if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
+    return fmt::format(
+        R"(        for (uint i = {}; i < {}; ++i) {{
+            global const wr_projector *decal = decals + i;
+            wr_projected in = wr_project_box(decal, p);
+{}            wr_real weight = m * wr_projector_falloff(decal, in){};
+            wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
+            wr_real lod = {};
+            wr_vec2 slope = {};
+            {}
+        }}
+)",
+        first, plan.decals.size(),
+        at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
+        facing ? "" : " * wr_projector_angle_fade(decal, n)",
+        at.layer.footprint
+            ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
+            : "0",
+        sample_text(decal_of(at.layer).texture, "wr_projector_st(in)", "lod", "weight != 0"),
+        mixed ? "wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_projector_bumped_axis(decal, in, "
+                "slope), "
+                "weight), below));"
+              : "dh_dp = wr_projector_blend(decal, in, slope, weight, dh_dp);");
+}
+
+}  // namespace
+
+const LayerKind& layers::decal() {
+    static constexpr LayerKind kind{
+        .name = DecalLayer::kind, .read = read, .emit = emit, .without_normal = true, .joins = joins};
+    return kind;
+}
+
+}  // namespace wrinkle

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include "layers/common.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kTextureMetres = 60;  // expected operations
+
+void read(scene::Table& table, Layer& layer) {
+    DerivativeMapLayer bump;
+    scene::read_texture_file(table, bump.texture);
+    scene::read_green(table, bump.texture);
+    scene::read_slope_encoding(table, bump.texture);
+    table.choose("bump_scale", bump.auto_scale, {{"metres", false}, {"auto", true}});
+    scene::read_mapped(table, bump.texture, bump.uv);
+    scene::read_weight(table, layer);
+    layer.bump = bump;
+}
+
+std::string emit(LayerText& at) {
+    const auto& l = std::get<DerivativeMapLayer>(at.layer.bump);
+    std::string text = at.textured(l.texture);
+    if (l.auto_scale) {
+        text += fmt::format("        slope = wr_scale(slope, wr_texture_metres(dp_dx, dp_dy, c.dx, c.dy){});\n",
+                            l.texture.unit == SlopeUnit::texel ? " / wr_texels_across(t)" : "");
+        at.section.operations += kTextureMetres;
+    }
+    return text + at.slopes("scale_dependent", "c.dx, c.dy, slope");
+}
+
+}  // namespace
+
+const LayerKind& layers::derivative_map() {
+    static constexpr LayerKind row{.name = DerivativeMapLayer::kind,
+                                   .read = read,
+                                   .emit = emit,
+                                   .uses = layers::on_uv,
+                                   .variants = layers::standard_and_exact};
+    return row;
+}
+
+}  // namespace wrinkle

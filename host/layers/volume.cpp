@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include "io/volume.h"
+#include "io/volume_file.h"
+#include "layers/common.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kLinear = 90, kSmooth = 330, kVector = 110;  // expected operations
+
+void read(scene::Table& table, Layer& layer) {
+    VolumeLayer bump;
+    table.require("volume");
+    table.read_file("volume", bump.file);
+    table.read("grid", bump.grid);
+    table.choose("filter", bump.filter, {{"linear", VolumeFilter::linear}, {"smooth", VolumeFilter::smooth}});
+    table.choose("remap", bump.remap,
+                 {{"none", Remap::none}, {"ramp", Remap::ramp}, {"smooth", Remap::smooth}, {"wave", Remap::wave}});
+    table.read("range", bump.range);
+    if (static_cast<float>(bump.range[0]) == static_cast<float>(bump.range[1]))
+        table.complain("range", "must be two different numbers");
+    table.only_with("range", bump.remap != Remap::none, "remap", "ramp\", \"smooth\" or \"wave");
+    if (table.read_matrix("transform", bump.transform)) {
+        const auto& last = bump.transform[3];
+        if (last[0] != 0 || last[1] != 0 || last[2] != 0 || last[3] != 1)
+            table.complain("transform", "must be affine: its last row is [0, 0, 0, 1]");
+        else if (is_singular(bump.transform))
+            table.complain("transform", "cannot be inverted: its columns are zero or parallel");
+    }
+    scene::read_weight_without_levels(table, layer);
+    layer.bump = bump;
+}
+
+void look(const Layer& layer, Available& available) {
+    const auto& volume = std::get<VolumeLayer>(layer.bump);
+    try {
+        const VolumeInfo info = volume_info(volume.file, volume.grid);
+        available.volumes[{volume.file.string(), volume.grid}] = {info.channels == 3, info.index_from_world};
+    } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
+}
+
+/// World to the grid's index space: the file's transform, then the layer's.
+Mat4 index_from_world(const Mat4& file, const Layer& layer) {
+    return multiply(file, inverse(std::get<VolumeLayer>(layer.bump).transform));
+}
+
+/// Kernel text of the 3 x 3 part of that matrix times v, plus `rest`; transposed: of the matrix as columns. Grids that
+/// lie along the axes, and are not turned by the layer, are spared the zeros.
+class IndexMatrix {
+public:
+    IndexMatrix(LayerText& at, const Mat4& file) {
+        const Mat4 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+        along_axes_ = std::get<VolumeLayer>(at.layer.bump).transform == identity;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) along_axes_ &= i == j || file[i][j] == 0;
+        first_ = at.emitter.numbers(at.layer, "transform", [file](const Layer& layer, const auto&) {
+            const Mat4 m = index_from_world(file, layer);
+            std::vector<double> numbers;
+            for (std::size_t i = 0; i < 3; ++i) numbers.insert(numbers.end(), m[i].begin(), m[i].begin() + 3);
+            return numbers;
+        });
+    }
+
+    std::string times(const std::string& v, bool transposed, const std::string& rest = {}) const {
+        std::string parts[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            parts[i] = rest.empty() ? "" : fmt::format("{}.{}", rest, "xyz"[i]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (along_axes_ && i != k) continue;
+                const std::string factor =
+                    fmt::format("(wr_real)(numbers[{}])", first_ + (transposed ? 3 * k + i : 3 * i + k));
+                parts[i] = parts[i].empty() ? fmt::format("{}.{} * {}", v, "xyz"[k], factor)
+                                            : fmt::format("fma({}.{}, {}, {})", v, "xyz"[k], factor, parts[i]);
+            }
+        }
+        return fmt::format("wr_v3({},\n            {},\n            {})", parts[0], parts[1], parts[2]);
+    }
+
+private:
+    bool along_axes_ = true;
+    std::size_t first_ = 0;
+};
+
+std::string emit(LayerText& at) {
+    const auto& l = std::get<VolumeLayer>(at.layer.bump);
+    const auto facts = at.emitter.available.volumes.find({l.file.string(), l.grid});
+    if (facts == at.emitter.available.volumes.end())
+        throw Error(fmt::format("{}: nothing is known of the volume {}", at.who, l.file.string()));
+    const bool vectors = facts->second.vectors, smooth = l.filter == VolumeFilter::smooth;
+    if (vectors && (smooth || l.remap != Remap::none))
+        throw Error(
+            fmt::format("{}: {} holds vectors, which are the gradient as they are; \"filter\" and \"remap\" are "
+                        "for grids of values",
+                        at.who, l.file.string()));
+    const Mat4 file = facts->second.index_from_world;
+    const IndexMatrix matrix(at, file);
+    const std::size_t origin = at.emitter.origin(at.layer, [file](const Layer& layer) {
+        const Mat4 m = index_from_world(file, layer);
+        return Origin{
+            .axes = {Vec3{m[0][0], m[0][1], m[0][2]}, Vec3{m[1][0], m[1][1], m[1][2]}, Vec3{m[2][0], m[2][1], m[2][2]}},
+            .offset = {m[0][3], m[1][3], m[2][3]}};
+    });
+    at.section.reads.insert("p");
+    at.section.operations += vectors ? kVector : smooth ? kSmooth : kLinear;
+    std::string text = fmt::format(
+        "        wr_volume v = wr_volume_at(texels, textures, {});\n"
+        "        wr_vec3 start = wr_v3(origins + {});  // the eye, in the grid's index space\n"
+        "        wr_vec3 q = {};\n",
+        at.emitter.volume(l, smooth ? TexelKind::volume_smooth : TexelKind::volume), 4 * origin,
+        matrix.times("p", false, "start"));
+    if (vectors) return text + at.volume("wr_volume_vector(v, q)");
+    text += fmt::format("        wr_field s = {}(v, q);\n", smooth ? "wr_volume_bspline" : "wr_volume_trilinear");
+    if (l.remap != Remap::none) {
+        const std::size_t range = at.emitter.numbers(at.layer, "range", [](const Layer& layer, const auto&) {
+            const auto& range = std::get<VolumeLayer>(layer.bump).range;
+            return std::vector(range.begin(), range.end());
+        });
+        const char* shape = l.remap == Remap::ramp ? "ramp" : l.remap == Remap::smooth ? "smoothstep" : "wave";
+        text += fmt::format("        s = wr_shape_{}(s, numbers[{}], numbers[{}]);\n", shape, range, range + 1);
+    }
+    return text + at.volume(matrix.times("s.gradient", true));
+}
+
+}  // namespace
+
+const LayerKind& layers::volume() {
+    static constexpr LayerKind row{.name = VolumeLayer::kind, .read = read, .emit = emit, .look = look};
+    return row;
+}
+
+}  // namespace wrinkle
