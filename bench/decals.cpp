@@ -14,6 +14,8 @@
 #include "tests/reference/projector.h"
 #include "tools/scatter.h"
 
+#include "layout.h"
+
 namespace wrinkle::bench {
 
 namespace {
@@ -154,7 +156,7 @@ Entrant prepare(const Device& device, const BenchFrame& frame, const Wanted& wan
         std::sqrt(kCoverage * static_cast<double>(frame.pixels()) / (2.5 * static_cast<double>(wanted.count)));
     for (int round = 0; round < 3; ++round) {  // until as many pixels are covered as wanted
         e.resident = std::make_unique<Resident>(device, scene_of(rows_of(frame, wanted, half)), frame);
-        e.lists = {DecalBins::kTileWidth, DecalBins::kTileHeight, {}};
+        e.lists = {WR_TILE_WIDTH, WR_TILE_HEIGHT, {}};
         e.coverage = coverage_of(*e.resident, frame, e.lists.lists);
         if (std::abs(e.coverage.per_pixel / kCoverage - 1) < 0.02) break;
         half *= std::sqrt(kCoverage / e.coverage.per_pixel);

@@ -1,7 +1,18 @@
-// Structs that the host fills and kernels read. Included by both. Every member is a WR_SCALAR: the host fills double
-// and narrows number by number for a float program, so one declaration serves every precision.
+// Structs that the host fills and kernels read, and numbers that both must agree on. Included by both. Every member is
+// a WR_SCALAR: the host fills double and narrows number by number for a float program, so one declaration serves every
+// precision.
 #ifndef WR_LAYOUT_H
 #define WR_LAYOUT_H
+
+#ifdef __cplusplus
+#define WR_SCALAR double
+#endif
+
+// Depth at and beyond which a pixel is background: writers store 1e10 (Blender) or more there.
+#define WR_BACKGROUND_DEPTH 1e9f
+
+// Largest slope of a tangent-space normal, 89.55 degrees [Mik20 listing 2].
+#define WR_MAX_SLOPE 128
 
 // What changes from frame to frame. Positions are relative to the eye.
 typedef struct {
@@ -66,5 +77,27 @@ typedef struct {
 #define WR_VOLUME_BLOCKS 0  // of 8^3 cells along x, y, z
 #define WR_VOLUME_FIRST 3   // index of the first voxel of the first block, signed
 #define WR_VOLUME_INDEX 6   // of the texel that holds the first of the blocks' offsets
+
+// Bins of decals: pixels of a tile; 4 x 4 tiles are a block, 4 x 4 blocks a super block.
+#define WR_TILE_WIDTH_LOG2 4
+#define WR_TILE_HEIGHT_LOG2 3
+#define WR_TILE_WIDTH (1 << WR_TILE_WIDTH_LOG2)
+#define WR_TILE_HEIGHT (1 << WR_TILE_HEIGHT_LOG2)
+#define WR_TILES_OF_SUPER 256
+// Number of tile (x, y), of which `supers` super blocks make a row. Children are numbered within their parent, so
+// those of block or super block i are 16 i to 16 i + 15. A macro, as kernels number whole vectors of lanes.
+#define WR_TILE_NUMBER(x, y, supers)                                                                                  \
+    ((((y) >> 4) * (supers) + ((x) >> 4)) << 8 | ((y) >> 2 & 3) << 6 | ((x) >> 2 & 3) << 4 | ((y) & 3) << 2 | ((x) & 3))
+// A tile's list: where it begins, its length, and whether it is its own or a parent's.
+#define WR_LIST_FIRST 0
+#define WR_LIST_COUNT 1
+#define WR_LIST_OWN 2
+#define WR_LIST_WORDS 3
+// Numbers of a decal in the table of boxes: centre, the three rows of to_box, half size of the box around it, shape.
+#define WR_BOX_NUMBERS 16
+// The low corner of a box around nothing; its high corner is -WR_BIN_NOTHING.
+#define WR_BIN_NOTHING 3e37f
+// Decals are grown by this share of their half size, for the rounding of the tests.
+#define WR_BIN_BOX_SLACK 1.00002f
 
 #endif

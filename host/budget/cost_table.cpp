@@ -1,18 +1,15 @@
 #include "budget/cost_table.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/text_file.h"
 #include "device/kernel_sources.h"
 #include "device/program_cache.h"
-#include "scene/files.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -87,7 +84,7 @@ std::filesystem::path user_costs_file() {
 
 std::vector<DeviceCosts> read_costs(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) return {};
-    return parse(scene::read_text(file), file.string());
+    return parse(read_text(file, "a table of costs"), file.string());
 }
 
 void write_costs(const std::filesystem::path& file, const std::vector<DeviceCosts>& tables) {
@@ -104,11 +101,7 @@ void write_costs(const std::filesystem::path& file, const std::vector<DeviceCost
     }
     const std::string text = nlohmann::ordered_json{{"devices", devices}}.dump(1) + "\n";
     AtomicFile out(file);
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t wrote = ::write(out.descriptor(), text.data() + done, text.size() - done);
-        if (wrote < 0) throw Error(out.failure(std::strerror(errno)));
-        done += static_cast<std::size_t>(wrote);
-    }
+    out.write(text);
     out.commit();
 }
 

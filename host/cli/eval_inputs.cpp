@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/names.h"
+#include "base/text_file.h"
 #include "io/channel_index.h"
 #include "io/channel_names.h"
 #include "io/gbuffer_reader.h"
@@ -155,7 +156,7 @@ EvalInputs<T> read_inputs(const Function& function, const std::vector<EvalFile>&
     }
     if (csv) {
         const std::string name = *csv == "-" ? "standard input" : csv->string();
-        inputs.table.emplace(io::read_text(*csv), name);
+        inputs.table.emplace(*csv == "-" ? read_standard_input() : read_text(*csv, "a CSV file"), name);
         std::vector<std::string> missing;
         for (const Parameter& parameter : function.parameters)
             for (const std::string& column : parameter.columns()) {

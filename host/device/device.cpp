@@ -2,19 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
+#include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// Lanes that fill the device's float vectors: 4, 8 or 16 on a CPU; a GPU has its own lanes.
 int lanes_of(const cl::Device& device) {
@@ -81,10 +74,11 @@ Device Device::open(const std::string& wanted) {
         const DeviceInfo info = describe(devices[i]);
         listing += fmt::format("\n  {}: {} ({}, {})", i, info.name, info.type, info.platform);
         const bool match =
-            wanted.empty() ? info.type == "cpu"
-                           : name == fmt::format("{}", i) || name == info.type ||
-                                 (!number && name.size() > 1 && lower(info.name).find(name) != std::string::npos) ||
-                                 (!number && name.size() > 1 && lower(info.platform).find(name) != std::string::npos);
+            wanted.empty()
+                ? info.type == "cpu"
+                : name == fmt::format("{}", i) || name == info.type ||
+                      (!number && name.size() > 1 &&
+                       (contains_ignoring_case(info.name, name) || contains_ignoring_case(info.platform, name)));
         if (match) chosen = &devices[i];
     }
     if (chosen == nullptr && wanted.empty()) chosen = &devices.front();

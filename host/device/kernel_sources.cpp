@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -37,10 +37,9 @@ void expand(const std::string& text, std::string name, std::set<std::string>& se
 
 std::string kernel_source(const std::string& name) {
     if (const char* folder = std::getenv("WRINKLE_KERNEL_DIR"); folder != nullptr && *folder != '\0') {
-        const std::filesystem::path file = std::filesystem::path(folder) / name;
-        std::ifstream in(file, std::ios::binary);
-        if (!in) throw Error(fmt::format("WRINKLE_KERNEL_DIR: cannot read {}", file.string()));
-        return {std::istreambuf_iterator<char>(in), {}};
+        try {
+            return read_text(std::filesystem::path(folder) / name, "a kernel source");
+        } catch (const Error& error) { throw Error(fmt::format("WRINKLE_KERNEL_DIR: {}", error.what())); }
     }
     for (const KernelSource& source : embedded_kernel_sources())
         if (name == source.name) return source.text;

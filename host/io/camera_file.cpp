@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/camera_check.h"
 #include "io/camera_json.h"
 #include "io/frame_path.h"
 #include "io/header_camera.h"

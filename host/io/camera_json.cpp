@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/names.h"
+#include "base/text_file.h"
+#include "io/camera_check.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
@@ -15,13 +16,7 @@ namespace {
 using nlohmann::json;
 
 json parse(const std::filesystem::path& file) {
-    std::error_code code;
-    if (!std::filesystem::exists(file, code)) throw Error(fmt::format("{}: no such file", file.string()));
-    std::ifstream stream(file);
-    if (!stream || std::filesystem::is_directory(file, code)) {
-        throw Error(fmt::format("{}: cannot be read", file.string()));
-    }
-    const std::string content{std::istreambuf_iterator<char>(stream), {}};
+    const std::string content = read_text(file, "a camera file");
     try {
         auto value = json::parse(content);
         if (value.is_object()) return value;
@@ -85,43 +80,6 @@ void check_aspect(const json& camera, Size frame, const std::filesystem::path& f
 }
 
 }  // namespace
-
-bool settle_last_row(Mat4& view) {
-    constexpr double rounding = 1e-6;  // as products of float matrices have it
-    const std::array<double, 4> wanted{0, 0, 0, 1};
-    for (std::size_t j = 0; j < 4; ++j)
-        if (!(std::abs(view[3][j] - wanted[j]) <= rounding)) return false;
-    view[3] = wanted;
-    return true;
-}
-
-Camera checked_camera(Camera camera, const std::string& name) {
-    constexpr double rigid = 1e-3;  // allows for float matrices that were printed with few digits
-    for (const auto* m : {&camera.view, &camera.proj})
-        for (const auto& row : *m)
-            for (const double value : row) {
-                if (std::isfinite(value)) continue;
-                throw Error(
-                    fmt::format("{}: {} holds a number that is not finite", name, m == &camera.view ? "view" : "proj"));
-            }
-    const auto& v = camera.view;
-    if (!settle_last_row(camera.view)) {
-        const bool looks_transposed = v[0][3] == 0 && v[1][3] == 0 && v[2][3] == 0;
-        throw Error(
-            fmt::format("{}: the last row of view is {}, not 0 0 0 1{}", name, fmt::join(v[3], " "),
-                        looks_transposed ? "; it looks transposed: matrices are rows and act on column vectors" : ""));
-    }
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const double product = v[i][0] * v[j][0] + v[i][1] * v[j][1] + v[i][2] * v[j][2];
-            if (std::abs(product - (i == j ? 1 : 0)) <= rigid) continue;
-            throw Error(fmt::format("{}: view is not rigid: its upper 3x3 must be a rotation, without scale", name));
-        }
-    try {
-        inverse(camera.proj);
-    } catch (const Error&) { throw Error(fmt::format("{}: proj cannot be inverted", name)); }
-    return camera;
-}
 
 Camera read_camera_json(const std::filesystem::path& file, Size frame_size) {
     const auto value = parse(file);

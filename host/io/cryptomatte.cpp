@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/names.h"
+#include "base/text_file.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -70,9 +70,11 @@ CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::stri
     std::string origin = file.string();
     if (const auto beside = header.text(key + "manif_file"); text.empty() && beside && !beside->empty()) {
         const auto path = file.parent_path() / *beside;
-        std::ifstream stream(path);
-        if (!stream) return;  // without a manifest, names are hashed
-        text.assign(std::istreambuf_iterator<char>(stream), {});
+        try {
+            text = read_text(path);
+        } catch (const Error&) {
+            return;  // without a manifest, names are hashed
+        }
         origin = path.string();
     }
     if (text.empty()) return;

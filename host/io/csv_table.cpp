@@ -1,16 +1,12 @@
 #include "io/csv_table.h"
 
 #include <csv.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 
 #include "io/csv_rows.h"
 #include "wrinkle/error.h"
@@ -92,28 +88,6 @@ std::vector<T> CsvTable::numbers(const std::string& name) const {
 
 template std::vector<float> CsvTable::numbers(const std::string&) const;
 template std::vector<double> CsvTable::numbers(const std::string&) const;
-
-std::string read_text(const std::filesystem::path& file) {
-    const bool standard = file == "-";
-    const std::string name = standard ? "standard input" : file.string();
-    std::error_code code;
-    if (!standard && !std::filesystem::exists(file, code)) throw Error(fmt::format("{}: no such file", name));
-    const int descriptor = standard ? STDIN_FILENO : ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    std::string text;
-    std::vector<char> block(std::size_t{1} << 20);
-    ssize_t size = descriptor < 0 ? -1 : 1;
-    while (size > 0) {
-        size = ::read(descriptor, block.data(), block.size());
-        if (size < 0 && errno == EINTR)
-            size = 1;
-        else if (size > 0)
-            text.append(block.data(), static_cast<std::size_t>(size));
-    }
-    const int reason = errno;
-    if (!standard && descriptor >= 0) ::close(descriptor);
-    if (size < 0) throw Error(fmt::format("{}: cannot be read: {}", name, std::strerror(reason)));
-    return text;
-}
 
 void append_csv_cell(std::string& to, std::string_view cell) {
     const bool blank_edge =

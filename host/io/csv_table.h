@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,9 +29,6 @@ private:
     std::vector<std::size_t> ends_;     ///< where each cell ends in text_
     std::vector<std::uint32_t> lines_;  ///< the line that each row begins in
 };
-
-/// All of a file, or of standard input for "-". Throws Error.
-std::string read_text(const std::filesystem::path& file);
 
 /// Appends a cell, quoted where it must be.
 void append_csv_cell(std::string& to, std::string_view cell);

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/names.h"
-#include "wrinkle/error.h"
+#include "io/camera_check.h"
 
 namespace wrinkle::io {
 namespace {
@@ -17,12 +17,6 @@ Mat4 transposed(const Mat4& m) {
     for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t j = 0; j < 4; ++j) t[i][j] = m[j][i];
     return t;
-}
-
-std::optional<Mat4> inverse_or_nothing(const Mat4& m) {
-    try {
-        return inverse(m);
-    } catch (const Error&) { return std::nullopt; }
 }
 
 /// A matrix that acts on column vectors, as all of ours do. Those of EXR headers act on row vectors, but some writers

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/background.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
 #include "wrinkle/error.h"
@@ -13,7 +14,6 @@ namespace wrinkle {
 namespace {
 
 constexpr std::uint32_t band_rows = 128;
-constexpr double background_depth = 1e9;
 
 /// The planes whose range is reported. Of a cryptomatte that is the coverage: ids are bit patterns, not numbers.
 std::vector<std::string> measured_planes(const Role& role) {
@@ -24,7 +24,7 @@ std::vector<std::string> measured_planes(const Role& role) {
 bool is_valid(const std::string& role, std::span<const float> components) {
     if (!std::ranges::all_of(components, [](float c) { return std::isfinite(c); })) return false;
     if (role == "normal") return std::ranges::any_of(components, [](float c) { return c != 0; });
-    if (role == "depth") return components[0] > 0 && components[0] < background_depth;
+    if (role == "depth") return components[0] > 0 && components[0] < kBackgroundDepth;
     return true;
 }
 

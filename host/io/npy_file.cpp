@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/csv_table.h"
+#include "base/text_file.h"
 #include "io/npy_header.h"
 #include "wrinkle/error.h"
 
@@ -34,7 +34,7 @@ void take(std::string_view bytes, std::vector<T>& values, const std::string& nam
 
 template <class T>
 NpyArray<T> read_npy(const std::filesystem::path& file) {
-    const std::string text = read_text(file), name = file.string();
+    const std::string text = read_text(file, "an array (.npy)"), name = file.string();
     const NpyHeader header = read_npy_header(text, name);
     if (header.type.empty()) throw Error(fmt::format("{} holds records; needs a plain array of numbers", name));
     const std::size_t size = header.type == "<f4" ? 4 : header.type == "<f8" ? 8 : 0;

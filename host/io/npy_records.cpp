@@ -9,7 +9,7 @@
 #include <fstream>
 #include <regex>
 
-#include "io/csv_table.h"
+#include "base/text_file.h"
 #include "io/npy_header.h"
 #include "wrinkle/error.h"
 
@@ -71,7 +71,7 @@ bool NpyRecords::is(const std::filesystem::path& file) {
     return start == npy_magic;
 }
 
-NpyRecords::NpyRecords(const std::filesystem::path& file) : bytes_(read_text(file)) {
+NpyRecords::NpyRecords(const std::filesystem::path& file) : bytes_(read_text(file, "an array (.npy)")) {
     const std::string name = file.string();
     const NpyHeader header = read_npy_header(bytes_, name);
     if (!header.type.empty())

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "io/background.h"
+
 namespace wrinkle {
 namespace {
 
-constexpr double background_depth = 1e9;  // writers put 1e10 or more where there is nothing
 constexpr std::uint32_t samples_per_row = 256;
 
 /// The value that a share of all values lie below.
@@ -20,7 +21,7 @@ double quantile(std::vector<double>& values, double share) {
 bool is_surface(const PositionSample& sample) {
     const auto& p = sample.position;
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return false;
-    if (!std::isnan(sample.depth)) return sample.depth > 0 && sample.depth < background_depth;
+    if (!std::isnan(sample.depth)) return sample.depth > 0 && sample.depth < kBackgroundDepth;
     return p != Vec3{0, 0, 0};
 }
 

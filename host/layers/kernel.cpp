@@ -5,8 +5,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/text_file.h"
 #include "layers/common.h"
-#include "scene/files.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -70,7 +70,7 @@ bool defines(const std::string& text, const std::string& name) {
 /// the file's own name and lines.
 void add_source(LayerText& at, const KernelLayer& l) {
     const std::string file = l.file.string();
-    const std::string text = scene::read_text(l.file);
+    const std::string text = read_text(l.file, "a kernel source");
     if (!defines(text, l.function))
         throw Error(
             fmt::format("{}: {} has no function \"{}\"; it must be: wr_fn wr_dual {}(wr_bump_point at, "

@@ -10,11 +10,9 @@ namespace wrinkle {
 
 namespace {
 
-constexpr std::uint32_t kSuperWidth = 16 * DecalBins::kTileWidth, kSuperHeight = 16 * DecalBins::kTileHeight;
-constexpr std::uint32_t kTilesOfSuper = 256;
+constexpr std::uint32_t kSuperWidth = 16 * WR_TILE_WIDTH, kSuperHeight = 16 * WR_TILE_HEIGHT;
 constexpr std::uint32_t kEntriesOfTile = 128;  // room for lists, on average; beyond it tiles share their parents' lists
 constexpr std::uint32_t kMostEntries = 1u << 28;
-constexpr std::size_t kListWords = 3;
 constexpr std::size_t kGroup = 64;
 
 std::uint32_t supers_of(std::uint32_t pixels, std::uint32_t size) { return (pixels + size - 1) / size; }
@@ -62,7 +60,7 @@ void DecalBins::set_camera(const FrameConstants& constants, const Camera& camera
     bounds_ = table(device_, bounds.bounds);
     groups_ = table(device_, bounds.groups);
     std::vector<double> wide;
-    for (const Vec3& axis : bounds.axes) wide.insert(wide.end(), axis.begin(), axis.end());
+    for (const Imath::V3d& axis : bounds.axes) wide.insert(wide.end(), {axis.x, axis.y, axis.z});
     axes_ = fp64_ ? table(device_, wide) : table(device_, std::vector<float>(wide.begin(), wide.end()));
     table_bytes_ = projectors_.getInfo<CL_MEM_SIZE>() +
                    sizeof(float) * (bounds.boxes.size() + bounds.bounds.size() + bounds.groups.size());
@@ -71,7 +69,7 @@ void DecalBins::set_camera(const FrameConstants& constants, const Camera& camera
 void DecalBins::make_room(std::uint32_t supers) {
     if (supers <= rooms_for_) return;
     rooms_for_ = supers;
-    const std::uint64_t tiles = std::uint64_t{supers} * kTilesOfSuper;
+    const std::uint64_t tiles = std::uint64_t{supers} * WR_TILES_OF_SUPER;
     const std::uint64_t lists =
         limit_ > 0 ? limit_ : std::uint64_t{kEntriesOfTile} * tiles + 4 * std::uint64_t{decals_};
     capacity_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(decals_ + lists, kMostEntries));
@@ -81,8 +79,8 @@ void DecalBins::make_room(std::uint32_t supers) {
     for (std::size_t level = 0; level < 3; ++level) {
         const std::size_t count = tiles >> (4 * level);
         tile_bounds_[level] = cl::Buffer(device_.context, CL_MEM_READ_WRITE, count * 6 * sizeof(float));
-        lists_[level] = cl::Buffer(device_.context, CL_MEM_READ_WRITE, count * kListWords * sizeof(cl_uint));
-        room_bytes_ += count * (6 * sizeof(float) + kListWords * sizeof(cl_uint));
+        lists_[level] = cl::Buffer(device_.context, CL_MEM_READ_WRITE, count * WR_LIST_WORDS * sizeof(cl_uint));
+        room_bytes_ += count * (6 * sizeof(float) + WR_LIST_WORDS * sizeof(cl_uint));
     }
     device_.queue.enqueueWriteBuffer(entries_, CL_TRUE, 0, decals_ * sizeof(cl_uint), numbers_.data());
 }
@@ -93,7 +91,7 @@ cl::Event DecalBins::enqueue(const cl::Buffer& frame, const cl::Buffer& numbers,
     supers_a_row_ = supers_of(width, kSuperWidth);
     supers_ = supers_a_row_ * supers_of(rows.count, kSuperHeight);
     make_room(supers_);
-    const cl_uint tiles = supers_ * kTilesOfSuper, blocks = tiles / 16;
+    const cl_uint tiles = supers_ * WR_TILES_OF_SUPER, blocks = tiles / 16;
     std::vector<cl::Event> after = wait;
     after.insert(after.end(), last_use_.begin(), last_use_.end());
 
@@ -131,23 +129,22 @@ void DecalBins::set_arguments(cl::Kernel& kernel, cl_uint& next) const {
 
 BinReport DecalBins::read(std::uint32_t width, std::uint32_t rows,
                           std::vector<std::vector<std::uint32_t>>* lists) const {
-    std::vector<cl_uint> words(std::size_t{supers_} * kTilesOfSuper * kListWords), entries(capacity_);
+    std::vector<cl_uint> words(std::size_t{supers_} * WR_TILES_OF_SUPER * WR_LIST_WORDS), entries(capacity_);
     device_.queue.enqueueReadBuffer(lists_[0], CL_TRUE, 0, words.size() * sizeof(cl_uint), words.data());
     if (lists) device_.queue.enqueueReadBuffer(entries_, CL_TRUE, 0, entries.size() * sizeof(cl_uint), entries.data());
     BinReport report;
     report.bytes = table_bytes_ + room_bytes_;
-    for (std::uint32_t y = 0; y < (rows + kTileHeight - 1) / kTileHeight; ++y)
-        for (std::uint32_t x = 0; x < (width + kTileWidth - 1) / kTileWidth; ++x) {
-            std::uint32_t tile = (y >> 4) * supers_a_row_ + (x >> 4);
-            tile = tile << 4 | (y >> 2 & 3) << 2 | (x >> 2 & 3);
-            tile = tile << 4 | (y & 3) << 2 | (x & 3);
-            const cl_uint* list = words.data() + kListWords * tile;
+    for (std::uint32_t y = 0; y < (rows + WR_TILE_HEIGHT - 1) / WR_TILE_HEIGHT; ++y)
+        for (std::uint32_t x = 0; x < (width + WR_TILE_WIDTH - 1) / WR_TILE_WIDTH; ++x) {
+            const cl_uint* list = words.data() + WR_LIST_WORDS * std::size_t{WR_TILE_NUMBER(x, y, supers_a_row_)};
             ++report.tiles;
-            report.touched += list[1] > 0 ? 1 : 0;
-            report.inherited += list[2] == 0 ? 1 : 0;
-            report.entries += list[1];
-            report.longest = std::max(report.longest, list[1]);
-            if (lists) lists->emplace_back(entries.begin() + list[0], entries.begin() + list[0] + list[1]);
+            const cl_uint count = list[WR_LIST_COUNT];
+            report.touched += count > 0 ? 1 : 0;
+            report.inherited += list[WR_LIST_OWN] == 0 ? 1 : 0;
+            report.entries += count;
+            report.longest = std::max(report.longest, count);
+            const auto first = entries.begin() + list[WR_LIST_FIRST];
+            if (lists) lists->emplace_back(first, first + count);
         }
     return report;
 }

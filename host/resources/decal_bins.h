@@ -24,8 +24,6 @@ struct BinReport {
 /// nothing is read back, so enqueueing never waits. kernels/bins says how.
 class DecalBins {
 public:
-    static constexpr std::uint32_t kTileWidth = 16, kTileHeight = 8;  ///< pixels; those of kernels/bins
-
     DecalBins() = default;
     DecalBins(const Device& device, const cl::Program& program, const Plan& plan, int lanes);
 

@@ -3,22 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/vec.h"
+#include "base/imath.h"
 
 namespace wrinkle {
 
 namespace {
 
-constexpr float kNothing = 3e37f;        // kernels/bins: WR_BIN_NOTHING
-constexpr double kSlack = 1.00002;       // kernels/constants: WR_BIN_BOX_SLACK
-constexpr std::size_t kBoxNumbers = 16;  // kernels/bins: WR_BOX_NUMBERS
+using Imath::V3d;
 
-Vec3 vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+V3d vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 /// Six planes of `count` bounds, all of them of nothing.
 std::vector<float> no_bounds(std::size_t count) {
-    std::vector<float> planes(6 * count, kNothing);
-    std::fill(planes.begin() + static_cast<std::ptrdiff_t>(3 * count), planes.end(), -kNothing);
+    std::vector<float> planes(6 * count, WR_BIN_NOTHING);
+    std::fill(planes.begin() + static_cast<std::ptrdiff_t>(3 * count), planes.end(), -WR_BIN_NOTHING);
     return planes;
 }
 
@@ -30,30 +28,28 @@ float narrow(double v) { return static_cast<float>(std::clamp(v, -3e38, 3e38)); 
 
 DecalBounds decal_bounds(const std::vector<wr_projector>& decals, const Camera& camera) {
     DecalBounds out;
-    const auto row = [&](std::size_t i) { return Vec3{camera.view[i][0], camera.view[i][1], camera.view[i][2]}; };
-    const Vec3 right = normalize(row(0)), back = normalize(cross(right, row(1)));
-    const Vec3 down = cross(right, back);
-    out.axes = {right, down, {-back[0], -back[1], -back[2]}};
+    const auto row = [&](std::size_t i) { return V3d(camera.view[i][0], camera.view[i][1], camera.view[i][2]); };
+    const V3d right = direction(row(0)), back = direction(right.cross(row(1)));
+    out.axes = {right, right.cross(back), -back};
 
     const std::size_t groups = sixteens(decals.size()), padded = 16 * groups, padded_groups = 16 * sixteens(groups);
-    out.boxes.resize(kBoxNumbers * padded);
+    out.boxes.resize(WR_BOX_NUMBERS * padded);
     out.bounds = no_bounds(padded);
     out.groups = no_bounds(padded_groups);
     for (std::size_t i = 0; i < decals.size(); ++i) {
         const wr_projector& decal = decals[i];
-        const Vec3 center = vec(decal.center), rows[] = {vec(decal.to_box_x), vec(decal.to_box_y), vec(decal.to_box_z)};
-        if (rows[0] == Vec3{}) continue;  // touches nothing
-        float* box = out.boxes.data() + kBoxNumbers * i;
-        const double squares[] = {dot(rows[0], rows[0]), dot(rows[1], rows[1]), dot(rows[2], rows[2])};
+        const V3d center = vec(decal.center), rows[] = {vec(decal.to_box_x), vec(decal.to_box_y), vec(decal.to_box_z)};
+        if (rows[0] == V3d(0)) continue;  // touches nothing
+        float* box = out.boxes.data() + WR_BOX_NUMBERS * i;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double middle = dot(out.axes[k], center);
+            const double middle = out.axes[k].dot(center);
             double reach = 0;
             for (std::size_t r = 0; r < 3; ++r) {
-                const double along = dot(rows[r], out.axes[k]);
+                const double along = rows[r].dot(out.axes[k]);
                 box[3 + 3 * r + k] = narrow(along);
-                reach += std::abs(along) / squares[r];
+                reach += std::abs(along) / rows[r].length2();
             }
-            reach *= kSlack;
+            reach *= WR_BIN_BOX_SLACK;
             box[k] = narrow(middle);
             box[12 + k] = narrow(reach);
             const float low = narrow(middle - reach), high = narrow(middle + reach);

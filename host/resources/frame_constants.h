@@ -4,9 +4,6 @@
 
 #include "plan/plan.h"
 
-#ifndef WR_SCALAR
-#define WR_SCALAR double
-#endif
 #include "layout.h"
 
 namespace wrinkle {

@@ -10,7 +10,6 @@
 #include "resources/volume_heap.h"
 #include "wrinkle/error.h"
 
-#define WR_SCALAR double
 #include "layout.h"
 
 namespace wrinkle {
@@ -79,7 +78,7 @@ Image slopes_of_normals(const Image& image, bool y_down) {
     for (std::size_t i = 0; i + 3 <= image.texels.size(); i += 3) {
         const double x = 2.0 * image.texels[i] - 1, y = (y_down ? -1 : 1) * (2.0 * image.texels[i + 1] - 1);
         const double z = std::abs(2.0 * image.texels[i + 2] - 1);
-        const double size = std::max(z, std::max(std::abs(x), std::abs(y)) / 128);
+        const double size = std::max(z, std::max(std::abs(x), std::abs(y)) / WR_MAX_SLOPE);
         slopes.texels.push_back(size > 0 ? static_cast<float>(-x / size) : 0.0f);
         slopes.texels.push_back(size > 0 ? static_cast<float>(-y / size) : 0.0f);
     }

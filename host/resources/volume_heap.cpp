@@ -9,7 +9,6 @@
 #include "io/volume_file.h"
 #include "wrinkle/error.h"
 
-#define WR_SCALAR double
 #include "layout.h"
 
 namespace wrinkle {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.h"
+#include "base/text_file.h"
 #include "io/csv_rows.h"
 #include "io/csv_table.h"
 #include "io/npy_records.h"
@@ -30,7 +31,7 @@ std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t t
             reader.end_row();
         }
     };
-    io::read_csv_rows(io::read_text(file), file.string(), io::CsvComments::lines, take);
+    io::read_csv_rows(read_text(file, "a table of decals"), file.string(), io::CsvComments::lines, take);
     if (reader.header().empty())
         reader.complain_of_file(0, "holds no table; its first line names the columns, at least x,y,z");
     return reader.finish();

@@ -1,19 +1,17 @@
 #include "scene/decal_toml.h"
 
+#include <OpenImageIO/parallel.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <sstream>
-#include <thread>
 #include <utility>
 
 #include "base/names.h"
-#include "io/csv_table.h"
+#include "base/text_file.h"
 #include "scene/decal_reader.h"
 #include "scene/toml.h"
 #include "wrinkle/error.h"
@@ -163,36 +161,21 @@ std::string toml_value(const DecalColumn& column, const Projector& row) {
 
 }  // namespace
 
-bool is_toml(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending == ".toml";
-}
+bool is_toml(const std::filesystem::path& file) { return lower(file.extension().string()) == ".toml"; }
 
 std::vector<Projector> load_decal_toml(const std::filesystem::path& file, std::size_t textures) {
-    const std::string text = io::read_text(file), name = file.string();
+    const std::string text = read_text(file, "a table of decals"), name = file.string();
     DecalReader reader(name, textures, DecalReader::Form::toml);
     const std::vector<Piece> pieces = pieces_of(text);
     std::vector<std::vector<Projector>> sound(pieces.size());  // rows of pieces without mistakes
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < pieces.size(); i = next++) {
-            DecalReader alone(name, textures, DecalReader::Form::toml);
-            try {
-                read_piece(alone, name, pieces[i]);
-                sound[i] = alone.finish();
-            } catch (...) {
-                continue;  // it is read again below, to say what is wrong where: decals are counted from the first
-            }
+    OIIO::parallel_for(std::uint64_t{0}, std::uint64_t{pieces.size()}, [&](std::uint64_t i) {
+        DecalReader alone(name, textures, DecalReader::Form::toml);
+        try {
+            read_piece(alone, name, pieces[i]);
+            sound[i] = alone.finish();
+        } catch (...) {  // it is read again below, to say what is wrong where: decals are counted from the first
         }
-    };
-    {
-        const std::size_t workers =
-            std::min<std::size_t>(pieces.size(), std::max(1u, std::thread::hardware_concurrency()));
-        std::vector<std::jthread> others(workers - 1);
-        for (std::jthread& other : others) other = std::jthread(work);
-        work();
-    }
+    });
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (sound[i].empty())
             read_piece(reader, name, pieces[i]);

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "io/frame_path.h"
-#include "wrinkle/error.h"
 
 namespace wrinkle::scene {
 namespace fs = std::filesystem;
@@ -24,18 +21,6 @@ std::string why_not_readable(const fs::path& file, bool pattern) {
     const fs::path folder = file.parent_path();
     if (folder.empty() || fs::is_directory(folder, error)) return {};
     return fmt::format("there is no folder {}", folder.string());
-}
-
-std::string read_text(const fs::path& file) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (fs::is_directory(status)) throw Error(fmt::format("{}: is a folder; a scene file was expected", file.string()));
-    if (!fs::exists(status)) throw Error(fmt::format("{}: there is no such file", file.string()));
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw Error(fmt::format("{}: cannot be opened; check its permissions", file.string()));
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (stream.bad()) throw Error(fmt::format("{}: cannot be read", file.string()));
-    return text;
 }
 
 }  // namespace wrinkle::scene

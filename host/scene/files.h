@@ -8,7 +8,4 @@ namespace wrinkle::scene {
 /// Why `file` cannot be an input, or nothing. With `pattern`, a frame pattern (io/frame_path.h) needs only its folder.
 std::string why_not_readable(const std::filesystem::path& file, bool pattern);
 
-/// The whole file. Throws Error when there is none, it is a folder, or it cannot be read.
-std::string read_text(const std::filesystem::path& file);
-
 }  // namespace wrinkle::scene

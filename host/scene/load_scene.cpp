@@ -3,7 +3,7 @@
 #include <map>
 
 #include "base/names.h"
-#include "scene/files.h"
+#include "base/text_file.h"
 #include "scene/readers.h"
 #include "wrinkle/error.h"
 #include "wrinkle/scene.h"
@@ -54,7 +54,7 @@ void require_table(Table& root, const char* key, const char* example) {
 }  // namespace
 
 toml::table parse_scene_file(const std::filesystem::path& file) {
-    const std::string text = read_text(file), name = file.string();
+    const std::string text = read_text(file, "a scene file"), name = file.string();
     if (text.find('\0') != std::string::npos)
         throw Error(
             fmt::format("{}: is no text, so no scene (TOML); if it is an image, \"wrinkle info\" tells what it "

@@ -1,42 +1,16 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/names.h"
 #include "base/vec.h"
-#include "io/camera_json.h"
+#include "io/camera_check.h"
 #include "scene/readers.h"
-#include "wrinkle/error.h"
 #include "wrinkle/gbuffer.h"
 
 namespace wrinkle::scene {
 namespace {
-
-bool has_inverse(const Mat4& m) {
-    try {
-        inverse(m);
-        return true;
-    } catch (const Error&) { return false; }
-}
-
-/// What keeps `view` from being rigid, or nothing; rounding of its last row is taken out. Matrices written for row
-/// vectors are the usual slip.
-std::string why_not_rigid(Mat4& view) {
-    const bool bottom_is_affine = io::settle_last_row(view);
-    if (!bottom_is_affine && view[0][3] == 0 && view[1][3] == 0 && view[2][3] == 0 && view[3][3] == 1)
-        return "is transposed: its translation is in the last row; it belongs in the last column";
-    if (!bottom_is_affine)
-        return fmt::format("must have the last row [0, 0, 0, 1]; found [{}]", fmt::join(view[3], ", "));
-    for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j) {
-            const double product = view[i][0] * view[j][0] + view[i][1] * view[j][1] + view[i][2] * view[j][2];
-            if (!(std::abs(product - (i == j)) <= 1e-3))
-                return "must be rigid, world to camera: rows of its upper left 3x3 of unit length and at right angles";
-        }
-    return {};
-}
 
 void read_matrices(Table& table, CameraSource& out) {
     table.require("view");
@@ -44,10 +18,10 @@ void read_matrices(Table& table, CameraSource& out) {
     Camera camera;
     const bool has_view = table.read_matrix("view", camera.view), has_proj = table.read_matrix("proj", camera.proj);
     if (has_view) {
-        const std::string problem = why_not_rigid(camera.view);
+        const std::string problem = io::why_not_rigid(camera.view);
         if (!problem.empty()) table.complain("view", problem);
     }
-    if (has_proj && !has_inverse(camera.proj)) table.complain("proj", "is singular: it has no inverse");
+    if (has_proj && !io::inverse_or_nothing(camera.proj)) table.complain("proj", "is singular: it has no inverse");
     out.inline_camera = camera;
 }
 

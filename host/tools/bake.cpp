@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/vec.h"
+#include "base/imath.h"
 #include "wrinkle/error.h"
 #include "wrinkle/functions.h"
 
@@ -16,6 +16,7 @@ constexpr double kGoldenRadius = 5.3, kMarchRadius = 5.2;
 constexpr double kGoldenLipschitz = 6.2;
 
 using Column = std::vector<double>;
+using Imath::V3d;
 
 /// Points, and what a function of points gives there.
 struct Field {
@@ -23,9 +24,10 @@ struct Field {
     Column value, gx, gy, gz;
 
     std::size_t size() const { return x.size(); }
-    void add(const Vec3& p) { x.push_back(p[0]), y.push_back(p[1]), z.push_back(p[2]); }
-    Vec3 point(std::size_t i) const { return {x[i], y[i], z[i]}; }
-    Vec3 gradient(std::size_t i) const { return {gx[i], gy[i], gz[i]}; }
+    void add(const V3d& p) { x.push_back(p.x), y.push_back(p.y), z.push_back(p.z); }
+    void move(std::size_t i, const V3d& by) { x[i] += by.x, y[i] += by.y, z[i] += by.z; }
+    V3d point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    V3d gradient(std::size_t i) const { return {gx[i], gy[i], gz[i]}; }
 
     void evaluate(const Device& device, const char* name) {
         for (Column* c : {&value, &gx, &gy, &gz}) c->resize(size());
@@ -65,8 +67,7 @@ DenseVolume bake_noise(const Device& device, int size) {
     double frequency = kCells, amplitude = 1;
     for (int i = 0; i < kOctaves; ++i, frequency *= 2, amplitude /= 2) {
         Field lattice;
-        for (std::size_t k = 0; k < points.size(); ++k)
-            lattice.add({points.x[k] * frequency, points.y[k] * frequency, points.z[k] * frequency});
+        for (std::size_t k = 0; k < points.size(); ++k) lattice.add(points.point(k) * frequency);
         lattice.evaluate(device, "perlin_noise");
         for (std::size_t k = 0; k < points.size(); ++k)
             volume.values[k] += static_cast<float>(amplitude * lattice.value[k]);
@@ -81,12 +82,9 @@ Field nearest(const Device& device, const Field& from) {
     for (int step = 0; step < 12; ++step) {
         to.evaluate(device, "golden_ratio");
         for (std::size_t i = 0; i < to.size(); ++i) {
-            const Vec3 g = to.gradient(i), away = subtract(from.point(i), to.point(i));
-            const double square = std::max(dot(g, g), 1e-3), normal = dot(g, away) / square;
-            const double down = to.value[i] / square;
-            to.x[i] += away[0] - (normal + down) * g[0];
-            to.y[i] += away[1] - (normal + down) * g[1];
-            to.z[i] += away[2] - (normal + down) * g[2];
+            const V3d g = to.gradient(i), away = from.point(i) - to.point(i);
+            const double square = std::max(g.length2(), 1e-3);
+            to.move(i, away - g * ((g.dot(away) + to.value[i]) / square));
         }
     }
     return to;
@@ -104,7 +102,7 @@ DenseVolume bake_golden(const Device& device, int size) {
     std::vector<std::size_t> places;
     volume.values.assign(all.size(), volume.background);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (std::hypot(all.x[i], all.y[i], all.z[i]) > kGoldenRadius) continue;
+        if (all.point(i).length() > kGoldenRadius) continue;
         if (all.value[i] < 0) volume.values[i] = -volume.background;
         if (std::abs(all.value[i]) >= kGoldenLipschitz * volume.background) continue;
         band.add(all.point(i));
@@ -112,8 +110,7 @@ DenseVolume bake_golden(const Device& device, int size) {
     }
     const Field surface = nearest(device, band);
     for (std::size_t k = 0; k < places.size(); ++k) {
-        const Vec3 d = subtract(band.point(k), surface.point(k));
-        const auto distance = static_cast<float>(std::hypot(d[0], d[1], d[2]));
+        const auto distance = static_cast<float>((band.point(k) - surface.point(k)).length());
         float& v = volume.values[places[k]];
         v = std::copysign(std::min(distance, volume.background), v);
     }
@@ -151,14 +148,14 @@ std::map<std::string, std::vector<float>> bake_golden_frame(const Device& device
     const auto rays = pinhole_rays(camera, size);
     if (!rays) throw Error("a baked frame needs a pinhole camera");
     const std::size_t pixels = std::size_t{size.width} * size.height;
+    const V3d viewer = to_imath(rays->eye), d0 = to_imath(rays->d0), dx = to_imath(rays->dx), dy = to_imath(rays->dy);
     Field directions;
     Column lengths, distance(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         const double x = static_cast<double>(i % size.width) + 0.5, y = static_cast<double>(i / size.width) + 0.5;
-        Vec3 d;
-        for (std::size_t k = 0; k < 3; ++k) d[k] = rays->d0[k] + x * rays->dx[k] + y * rays->dy[k];
-        lengths.push_back(std::hypot(d[0], d[1], d[2]));
-        directions.add(normalize(d));
+        const V3d ray = d0 + x * dx + y * dy;
+        lengths.push_back(ray.length());
+        directions.add(direction(ray));
     }
     const Column eye[] = {Column(pixels, rays->eye[0]), Column(pixels, rays->eye[1]), Column(pixels, rays->eye[2])};
     evaluate_function(device, function("golden_march"),
@@ -171,18 +168,16 @@ std::map<std::string, std::vector<float>> bake_golden_frame(const Device& device
                       ColumnResultsInDouble{{"distance", distance}},
                       {.settings = {{"radius", std::vector<double>{kMarchRadius}}}});
     Field surface;
-    for (std::size_t i = 0; i < pixels; ++i)
-        surface.add({rays->eye[0] + distance[i] * directions.x[i], rays->eye[1] + distance[i] * directions.y[i],
-                     rays->eye[2] + distance[i] * directions.z[i]});
+    for (std::size_t i = 0; i < pixels; ++i) surface.add(viewer + distance[i] * directions.point(i));
     surface.evaluate(device, "golden_ratio");
     std::map<std::string, std::vector<float>> planes;
     const auto put = [&](const char* name, double value) { planes[name].push_back(static_cast<float>(value)); };
     for (std::size_t i = 0; i < pixels; ++i) {
         const bool hit = distance[i] > 0;
-        const Vec3 p = hit ? surface.point(i) : Vec3{}, n = hit ? normalize(surface.gradient(i)) : Vec3{};
+        const V3d p = hit ? surface.point(i) : V3d(0), n = hit ? direction(surface.gradient(i)) : V3d(0);
         put("depth", hit ? distance[i] / lengths[i] : 1e10);
-        put("position.x", p[0]), put("position.y", p[1]), put("position.z", p[2]);
-        put("normal.x", n[0]), put("normal.y", n[1]), put("normal.z", n[2]);
+        put("position.x", p.x), put("position.y", p.y), put("position.z", p.z);
+        put("normal.x", n.x), put("normal.y", n.y), put("normal.z", n.z);
     }
     return planes;
 }

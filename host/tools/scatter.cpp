@@ -10,12 +10,15 @@
 #include <ranges>
 #include <unordered_map>
 
-#include "base/vec.h"
+#include "base/imath.h"
+#include "io/background.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
+
+using Imath::V3d;
 
 /// Numbers that are the same with every standard library, which distributions of <random> are not.
 class Draw {
@@ -35,15 +38,16 @@ public:
     explicit Spaced(double distance) : distance_(distance) {}
 
     /// Adds a point unless another is too near.
-    bool add(const Vec3& p) {
+    bool add(const V3d& p) {
         if (distance_ <= 0) return true;
         std::array<std::int64_t, 3> cell{};
-        for (std::size_t k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(p[k] / distance_));
+        for (std::size_t k = 0; k < 3; ++k)
+            cell[k] = static_cast<std::int64_t>(std::floor(p[static_cast<int>(k)] / distance_));
         for (std::int64_t i = 0; i < 27; ++i) {
             const auto found = cells_.find(key({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1}));
             if (found == cells_.end()) continue;
-            for (const Vec3& other : found->second)
-                if (const Vec3 d = subtract(p, other); dot(d, d) < distance_ * distance_) return false;
+            for (const V3d& other : found->second)
+                if ((p - other).length2() < distance_ * distance_) return false;
         }
         cells_[key(cell)].push_back(p);
         return true;
@@ -57,19 +61,20 @@ private:
     }
 
     double distance_;
-    std::unordered_map<std::uint64_t, std::vector<Vec3>> cells_;
+    std::unordered_map<std::uint64_t, std::vector<V3d>> cells_;
 };
 
 /// The surface at a pixel.
 struct Surface {
-    Vec3 position, normal;
+    V3d position, normal;
     double pixel = 0;  ///< metres of a pixel that faces the viewer
 };
 
 class Pixels {
 public:
-    Pixels(const Frame& frame, const HostPlanes& planes)
-        : frame_(frame), rays_(pinhole_rays(frame.camera, frame.size)) {
+    Pixels(const Frame& frame, const HostPlanes& planes) : frame_(frame) {
+        if (const auto rays = pinhole_rays(frame.camera, frame.size))
+            rays_ = {to_imath(rays->eye), to_imath(rays->d0), to_imath(rays->dx), to_imath(rays->dy)};
         for (const char* name : {"normal.x", "normal.y", "normal.z"}) normal_.push_back(plane(planes, name));
         if (planes.contains("depth") && rays_) {
             depth_ = plane(planes, "depth");
@@ -81,29 +86,28 @@ public:
     }
 
     std::optional<Surface> at(std::size_t i) const {
-        Surface s;
-        for (std::size_t k = 0; k < 3; ++k) s.normal[k] = normal_[k][i];
-        const double length = std::sqrt(dot(s.normal, s.normal));
+        Surface s{.position = {}, .normal = at(normal_, i)};
+        const double length = s.normal.length();
         if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-        s.normal = normalize(s.normal);
-        Vec3 ray{};
-        for (std::size_t k = 0; rays_ && k < 3; ++k)
-            ray[k] = rays_->d0[k] + rays_->dx[k] * (static_cast<double>(i % frame_.size.width) + 0.5) +
-                     rays_->dy[k] * (static_cast<double>(i / frame_.size.width) + 0.5);
+        s.normal = direction(s.normal);
+        V3d ray(0);
+        if (rays_)
+            ray = rays_->d0 + rays_->dx * (static_cast<double>(i % frame_.size.width) + 0.5) +
+                  rays_->dy * (static_cast<double>(i / frame_.size.width) + 0.5);
         double depth = 0;
         if (!depth_.empty()) {
             depth = depth_[i];
-            if (!(depth > 0 && depth < 1e9)) return std::nullopt;
-            if (frame_.ray_depth) depth /= std::sqrt(dot(ray, ray));
-            for (std::size_t k = 0; k < 3; ++k) s.position[k] = rays_->eye[k] + depth * ray[k];
+            if (!(depth > 0 && depth < kBackgroundDepth)) return std::nullopt;
+            if (frame_.ray_depth) depth /= ray.length();
+            s.position = rays_->eye + depth * ray;
         } else {
-            for (std::size_t k = 0; k < 3; ++k) s.position[k] = position_[k][i];
-            if (!std::isfinite(dot(s.position, s.position))) return std::nullopt;
-            if (rays_) depth = dot(subtract(s.position, rays_->eye), ray) / dot(ray, ray);
+            s.position = at(position_, i);
+            if (!std::isfinite(s.position.length2())) return std::nullopt;
+            if (rays_) depth = (s.position - rays_->eye).dot(ray) / ray.length2();
         }
         if (rays_) {
-            s.pixel = depth * std::sqrt(dot(rays_->dx, rays_->dx));
-            if (dot(s.normal, ray) > 0) s.normal = {-s.normal[0], -s.normal[1], -s.normal[2]};
+            s.pixel = depth * rays_->dx.length();
+            if (s.normal.dot(ray) > 0) s.normal = -s.normal;
         }
         return s;
     }
@@ -111,6 +115,14 @@ public:
     bool knows_pixel_size() const { return rays_.has_value(); }
 
 private:
+    struct Rays {
+        V3d eye, d0, dx, dy;
+    };
+
+    static V3d at(const std::vector<std::span<const float>>& planes, std::size_t i) {
+        return {planes[0][i], planes[1][i], planes[2][i]};
+    }
+
     static std::span<const float> plane(const HostPlanes& planes, const char* name) {
         const auto found = planes.find(name);
         if (found == planes.end()) throw Error(std::string("scattering decals needs the plane ") + name);
@@ -118,20 +130,19 @@ private:
     }
 
     Frame frame_;
-    std::optional<PinholeRays> rays_;
+    std::optional<Rays> rays_;
     std::span<const float> depth_;
     std::vector<std::span<const float>> normal_, position_;
 };
 
 /// To the digits that tables need and no more, so that files stay small.
 double rounded(double v) { return std::stod(fmt::format("{:.8g}", v)); }
-Vec3 rounded(const Vec3& v) { return {rounded(v[0]), rounded(v[1]), rounded(v[2])}; }
+Vec3 rounded(const V3d& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
 /// Any unit vector perpendicular to n, turned by `angle` about it.
-Vec3 tangent(const Vec3& n, double angle) {
-    const Vec3 a = normalize(cross(std::abs(n[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, n)), b = cross(n, a);
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {a[0] * c + b[0] * s, a[1] * c + b[1] * s, a[2] * c + b[2] * s};
+V3d tangent(const V3d& n, double angle) {
+    const V3d a = direction((std::abs(n.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).cross(n));
+    return a * std::cos(angle) + n.cross(a) * std::sin(angle);
 }
 
 }  // namespace
@@ -149,7 +160,7 @@ std::vector<Projector> scatter_decals(const ScatterOptions& options, const Frame
         const std::size_t i = draw.below(count);
         const std::optional<Surface> surface = pixels.at(i);
         if (!surface) continue;
-        const Vec3 on_screen{static_cast<double>(i % frame.size.width), static_cast<double>(i / frame.size.width), 0};
+        const V3d on_screen{static_cast<double>(i % frame.size.width), static_cast<double>(i / frame.size.width), 0};
         if (!centers.add(options.pixels ? on_screen : surface->position)) continue;
         Projector& row = rows.emplace_back();
         row.shape = options.shapes[draw.below(options.shapes.size())];
@@ -158,9 +169,9 @@ std::vector<Projector> scatter_decals(const ScatterOptions& options, const Frame
         const double line = static_cast<double>(draw.below(options.atlas[1])), lines = options.atlas[1];
         row.region = {column / columns, line / lines, (column + 1) / columns, (line + 1) / lines};
         row.center = rounded(surface->position);
-        const Vec3 axis_x = tangent(surface->normal, draw.between(0, 2 * std::numbers::pi));
+        const V3d axis_x = tangent(surface->normal, draw.between(0, 2 * std::numbers::pi));
         row.axis_x = rounded(axis_x);
-        row.axis_y = rounded(cross(surface->normal, axis_x));
+        row.axis_y = rounded(surface->normal.cross(axis_x));
         const double half =
             rounded(draw.between(options.half_size[0], options.half_size[1]) * (options.pixels ? surface->pixel : 1));
         row.half_size = {half, half, rounded(half * options.thickness)};

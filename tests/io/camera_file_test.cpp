@@ -239,7 +239,7 @@ TEST(CameraFile, Json) {
         write_text(file, text);
         return error_of([&] { read_camera(source, reader, 12); });
     };
-    expect_mentions(error_of([&] { read_camera(source, reader, 12); }), {"f.0012.json: no such file"});
+    expect_mentions(error_of([&] { read_camera(source, reader, 12); }), {"f.0012.json: there is no such file"});
     expect_mentions(complaint("{\"view\": [\n1,"), {"malformed", "line 2"});
     expect_mentions(complaint("[1, 2]"), {"not a camera file"});
     expect_mentions(complaint("{\"view\": " + view + "}"), {"\"proj\" is missing"});
@@ -250,11 +250,11 @@ TEST(CameraFile, Json) {
                     {"f.0012.json", "line 2", "out of range", "1e999"});
     expect_mentions(
         complaint("{\"view\": " + json_matrix(transposed(true_camera().view)) + ", \"proj\": " + proj + "}"),
-        {"looks transposed"});
+        {"view is transposed"});
     expect_mentions(complaint("{\"view\": [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]], \"proj\": " + proj + "}"),
-                    {"not rigid"});
+                    {"view must be rigid"});
     expect_mentions(complaint("{\"view\": " + view + ", \"proj\": [[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,-1,0]]}"),
-                    {"proj cannot be inverted"});
+                    {"proj is singular"});
     expect_mentions(complaint(fmt::format(R"({{"width": 96, "height": 96, "view": {}, "proj": {}}})", view, proj)),
                     {"the camera is for 96x96 and the frame is 96x54"});
     write_text(file, fmt::format(R"({{"width": 192, "height": 108, "view": {}, "proj": {}}})", view, proj));
@@ -265,7 +265,7 @@ TEST(CameraFile, Json) {
     expect_same(read_camera(source, reader, 12), 1e-12);
     rounded[3] = {0, 0, 0, 1.01};
     expect_mentions(complaint("{\"view\": " + json_matrix(rounded) + ", \"proj\": " + proj + "}"),
-                    {"the last row of view is 0 0 0 1.01, not 0 0 0 1"});
+                    {"view must have the last row [0, 0, 0, 1]; found [0, 0, 0, 1.01]"});
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "tests/io/files.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::io {
 namespace {
@@ -97,14 +97,6 @@ TEST(Csv, CellsReadBackAsTheyWere) {
         append_csv_cell(text, cell);
         EXPECT_EQ(CsvTable(text + "\n", "in.csv").cell(0, 1), cell);
     }
-}
-
-TEST(Csv, ReadsWholeFilesAndSaysWhichItCannot) {
-    const test::TempFolder folder;
-    test::write_text(folder / "a.csv", "a\n1\n");
-    EXPECT_EQ(read_text(folder / "a.csv"), "a\n1\n");
-    test::expect_mentions(test::error_of([&] { read_text(folder / "b.csv"); }), {"b.csv", "no such file"});
-    test::expect_mentions(test::error_of([&] { read_text(folder / "."); }), {"cannot be read"});
 }
 
 }  // namespace
