@@ -10,7 +10,8 @@ namespace wrinkle::bench {
 
 namespace {
 
-/// The scene with a layer of every other kind, texture and noise that the sample scenes have, switched off.
+/// The scene with further layers in front, of kinds, textures and noises that it does not use. Their scale is 0: they
+/// are compiled in, and bump nothing.
 Scene with_everything(Scene scene) {
     const std::filesystem::path folder = WRINKLE_SOURCE_DIR "/data/scenes";
     std::vector<Layer> others;

@@ -8,7 +8,7 @@ namespace wrinkle::bench {
 
 namespace {
 
-/// A measurement by what it is called; of several, such as one for each compiler, the fastest.
+/// Names a measurement. Where several fit, such as one for each compiler, the fastest is meant.
 struct Subject {
     const char *group, *name, *variant;
 };
@@ -18,10 +18,11 @@ struct Promise {
     Subject of, to;
     double limit;
     bool at_most = true;
-    bool per_byte = false;  ///< times of a byte moved, not of a pixel
+    bool per_byte = false;  ///< compares the time that a byte takes, instead of a pixel's
 };
 
-// Times of one thing per pixel, as multiples of the time of another in the same run.
+// Each: what it is called; two measurements of a run; and what the time per pixel of the first, divided by that of the
+// second, must be: at most (or at least) `limit`.
 constexpr Promise kPromises[] = {
     {"8 decals / omp simd", {"stack", "decal_stack", "standard"}, {"stack", "decal_stack", "omp simd"}, 0.85},
     {"8 decals / plain C++", {"stack", "decal_stack", "standard"}, {"stack", "decal_stack", "plain C++"}, 0.25},
@@ -96,8 +97,8 @@ constexpr Promise kPromises[] = {
     {"wrinkle run / oiiotool", {"files", "resolve", "wrinkle run"}, {"files", "resolve", "oiiotool"}, 0.65},
 };
 
-/// The fastest of those of this variant, on however many lanes; else of those whose variant starts so; null where there
-/// is none.
+/// The fastest measurement of exactly this variant, on any number of lanes. Without one, the fastest whose variant
+/// begins with that name ("omp simd" finds "omp simd, g++"). Null where nothing fits.
 const Measurement* find(const Run& run, const Subject& wanted) {
     const Measurement* best = nullptr;
     const auto exact = [&](const Measurement& m) { return m.variant == wanted.variant; };

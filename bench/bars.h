@@ -4,7 +4,7 @@
 
 namespace wrinkle::bench {
 
-/// Every promise whose two measurements a run holds, with its verdict. One table: bars.cpp.
+/// The verdict on every promise whose two measurements are in the run. The promises are a table in bars.cpp.
 std::vector<Bar> bars_of(const Run& run);
 
 }  // namespace wrinkle::bench

@@ -29,7 +29,7 @@ std::function<void()> BenchKernels::launcher(const std::string& kernel, const st
     k.setArg(i, static_cast<cl_uint>(pixels));
     const auto lanes = static_cast<std::size_t>(lanes_);
     const std::size_t items = ((pixels + lanes - 1) / lanes + 63) / 64 * 64;
-    return [k, items, queue = device_.queue, arguments] {  // kernels do not keep their buffers
+    return [k, items, queue = device_.queue, arguments] {  // OpenCL kernels do not keep their buffers alive
         queue.enqueueNDRangeKernel(k, cl::NullRange, cl::NDRange(items), cl::NDRange(64));
         queue.finish();
     };

@@ -9,7 +9,7 @@
 
 namespace wrinkle::bench {
 
-/// The program of one file of bench/kernels, whose kernels take buffers and then the number of pixels.
+/// The program of one file of bench/kernels. Its kernels take buffers, and the number of pixels as their last argument.
 class BenchKernels {
 public:
     /// `lanes` 0: the device's own. Throws Error when the file is missing or does not build.

@@ -3,8 +3,8 @@
 
     bench/budgets.py build/release/wrinkle data/scenes/noise.toml
 
-Each is run several times, one after the other and round again, so that what else the machine does hits all of them;
-medians of the kernels' ns/pixel, with the spread between the quartiles, as a Markdown table.
+They take turns, several times, so that whatever else the machine does disturbs all of them alike. Prints a Markdown
+table: medians of the kernels' ns/pixel, and the spread between the quartiles.
 """
 import argparse
 import json

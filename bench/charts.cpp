@@ -15,7 +15,7 @@ namespace wrinkle::bench {
 
 namespace {
 
-/// Text as gnuplot reads it in double quotes, without markup.
+/// A string of gnuplot's.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
@@ -25,14 +25,14 @@ std::string quoted(const std::string& text) {
     return out + '"';
 }
 
-/// Errors of 0 have no place on a logarithmic axis: they stand at the left edge.
+/// A logarithmic axis has no 0, so errors of 0 are drawn at its left edge.
 double shown_error(double error) { return std::max(error, 1e-16); }
 
 std::string label(const Measurement& m) {
     return m.lanes > 0 ? fmt::format("{}, {} lane{}", m.variant, m.lanes, m.lanes == 1 ? "" : "s") : m.variant;
 }
 
-/// No other is at once faster and more accurate.
+/// Whether no other measurement is both faster and more accurate.
 bool on_front(const Measurement& m, const std::vector<const Measurement*>& all) {
     for (const Measurement* other : all)
         if (other != &m && other->ns_per_pixel() <= m.ns_per_pixel() && other->error.p99 <= m.error.p99 &&
@@ -52,7 +52,7 @@ std::string points(const char* block, const std::vector<const Measurement*>& all
     return text + "EOD\n";
 }
 
-/// Error against time of the variants of one thing; the front is a line.
+/// A chart of error against time for the variants of one thing. A line joins those that no other one beats in both.
 std::string pareto(const std::string& name, const std::vector<const Measurement*>& all) {
     return fmt::format(
         "set title {} noenhanced\nset xlabel {}\nset ylabel \"ns per pixel\"\nset logscale xy\nset format x \"%.0e\"\n"
@@ -66,11 +66,11 @@ std::string pareto(const std::string& name, const std::vector<const Measurement*
 
 /// A point of the roofline, on logarithmic axes.
 struct RoofPoint {
-    double x, y, below;  ///< decades; `below` the roof
+    double x, y, below;  ///< in decades; `below`: how far it lies below the roof
     std::string name;
 };
 
-/// Names those points that lie furthest below the roof, as far as there is room.
+/// Labels as many points as there is room for, those furthest below the roof first.
 std::string labels_of(std::vector<RoofPoint> points) {
     constexpr double kCharacter = 0.026, kLine = 0.07;  // decades, in a chart of 900 x 600
     std::ranges::sort(points, std::greater(), &RoofPoint::below);
@@ -88,7 +88,7 @@ std::string labels_of(std::vector<RoofPoint> points) {
     return data + "EOD\n";
 }
 
-/// Of what was measured on several lanes, the fastest only.
+/// False when the same was measured on another number of lanes, and was faster there.
 bool fastest_lanes(const Measurement& m, const Run& run) {
     return std::ranges::none_of(run.measurements, [&](const Measurement& other) {
         return other.group == m.group && other.name == m.name && other.variant == m.variant &&
@@ -96,7 +96,7 @@ bool fastest_lanes(const Measurement& m, const Run& run) {
     });
 }
 
-/// Arithmetic per byte against speed, under the ceilings of the machine.
+/// A chart of operations per byte against speed, under the machine's ceilings for memory and arithmetic.
 std::string roofline(const Run& run) {
     std::string data = "$all << EOD\n";
     std::vector<RoofPoint> points;

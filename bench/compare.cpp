@@ -6,18 +6,19 @@ namespace wrinkle::bench {
 
 namespace {
 
-/// Errors are deterministic on one device; compilers may round the last bit differently on another, and what single
-/// ill-conditioned inputs make of that is larger.
+/// On one device errors are the same in every run. On another, compilers may round last bits differently, which a
+/// single ill-conditioned input can enlarge: so the largest error is allowed to grow more than the 99% error.
 constexpr double kErrorSlack = 1.25, kMaxErrorSlack = 2;
 
-/// Larger than rounding alone would make it.
+/// Whether an error grew by more than rounding explains.
 bool grew(const ErrorStats& before, const ErrorStats& now) {
     const auto larger = [](double a, double b, double slack) { return b > slack * a && b > 1e-12; };
     return larger(before.p99, now.p99, kErrorSlack) || larger(before.max, now.max, kMaxErrorSlack) ||
            now.not_finite > before.not_finite;
 }
 
-/// Seconds in units of what the machine could have done meanwhile: of moving the bytes, or of the arithmetic.
+/// Time as a multiple of what the machine needs at least: for the arithmetic where there is a lot of it per byte, else
+/// for moving the bytes.
 double relative_seconds(const Run& run, const Measurement& m) {
     return m.operations > 10 * m.bytes ? m.seconds.median * run.ceilings.fma_gflop_s
                                        : m.seconds.median * run.ceilings.copy_gb_s;
@@ -43,7 +44,7 @@ bool compare(const Run& before, const Run& now) {
         for (const auto& [category, stats] : m.hard)
             if (const auto was = old.hard.find(category); was != old.hard.end())
                 less_accurate |= grew(was->second, stats);
-        if (less_accurate && m.lanes > 0) {  // of C++ the machine's own instructions decide
+        if (less_accurate && m.lanes > 0) {  // not of C++, whose rounding depends on this machine's instructions
             ++worse;
             fmt::print("  LESS ACCURATE      {}: p99 {:.2g} -> {:.2g}, max {:.2g} -> {:.2g} {}\n", m.key(),
                        old.error.p99, m.error.p99, old.error.max, m.error.max, m.unit);

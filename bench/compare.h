@@ -4,9 +4,9 @@
 
 namespace wrinkle::bench {
 
-/// Prints what became slower or less accurate than the spreads explain, and what one of the runs lacks. Speeds are
-/// compared as shares of their own run's copy or fma ceiling, so that a slower machine is no regression. Gives false
-/// where an error grew.
+/// Prints which measurements became slower or less accurate by more than their spreads explain, and which of them only
+/// one run has. Speeds are compared as shares of their own run's ceilings, so that a slower machine does not count as
+/// slower code. Returns false when an error grew.
 bool compare(const Run& before, const Run& now);
 
 }  // namespace wrinkle::bench

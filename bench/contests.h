@@ -6,39 +6,41 @@
 #include "wrinkle/camera.h"
 #include "wrinkle/device.h"
 
-/// Contests that the bars of bars.cpp are about: contenders for one job, turn by turn in one race, each with its error.
+/// Contests: several ways to do one job take turns in one race, each recorded with its error. bars.cpp judges them.
 namespace wrinkle::bench {
 
-/// Eight box decals over a frame: the kernel, and C++ plain, for the vectoriser, and vectorised by hand. Group "stack".
+/// Eight box decals over a frame, by the kernel and by C++ written plainly, for the compiler to vectorise, and
+/// vectorised by hand. Group "stack".
 void measure_stack(const Device& device, Size size, Run& run);
 
-/// Eight octaves of Perlin noise with gradient, by differences, and values alone; in kernels. Group "noise".
+/// Kernels for eight octaves of Perlin noise: with the analytic gradient, with gradients by differences, and the value
+/// alone. Group "noise".
 void measure_noise(const Device& device, Run& run);
 
-/// Screen derivatives of a pinhole camera beside a copy of as many planes. Group "screen".
+/// Screen derivatives of a pinhole camera, and a copy of as many bytes. Group "screen".
 void measure_screen(const Device& device, Size size, Run& run);
 
-/// Scenes that compute rather than load, on one core and on two. Group "cores"; nothing on a device that cannot be
-/// divided.
+/// Scenes that are limited by arithmetic, on one core and on two. Group "cores". Measures nothing on a device that
+/// cannot be divided.
 void measure_cores(const Device& device, Size size, Run& run);
 
-/// `wrinkle run` on a generated frame of 27 channels beside oiiotool, which only reads and writes. Group "files";
-/// nothing, with a line that says so, where there is no oiiotool.
+/// `wrinkle run` on a generated frame of 27 channels, and oiiotool, which only reads and writes the same ones. Group
+/// "files". Without oiiotool it says so and measures nothing.
 void measure_files(Size size, Run& run);
 
 /// Resolve from normals and gradients stored as float, half, or octahedral integers. Group "storage".
 void measure_storage(const Device& device, Size size, Run& run);
 
-/// A scene with only what it needs, and without one saving at a time: with everything compiled in and branched at run
-/// time, without skipping, without footprints, without fusing. Group "ablation".
+/// A scene as it is, and with one saving left out at a time: with the layers of other scenes compiled in and skipped by
+/// branches; without skipping pixels; without footprints; without fusing. Group "ablation".
 void measure_ablation(const Device& device, const std::filesystem::path& file, Size size, Run& run);
 
-/// One layer over all of a frame of half the width and height: noise of 2, 4 and 8 octaves, by gradients and by
-/// differences; a height map bilinear, smooth and by three taps, with mips and without; one of each on 1, 4, 8 and 16
-/// lanes. Group "variant".
+/// One layer over a whole frame of half the width and height. Noise: 2, 4 and 8 octaves, analytic gradients and
+/// differences. A height map: bilinear, smooth and by three taps, with mips and without. Noise of 8 octaves and the
+/// smooth map with mips also on 1, 4, 8 and 16 lanes. Group "variant".
 void measure_variants(const Device& device, Size size, Run& run);
 
-/// The scene of the stack of decals.
+/// The scene file of measure_stack.
 std::filesystem::path stack_scene();
 
 }  // namespace wrinkle::bench

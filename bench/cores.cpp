@@ -11,7 +11,7 @@ namespace wrinkle::bench {
 
 namespace {
 
-/// Part of a device, as a device.
+/// A device of some of the cores of `device`.
 Device part_of(const Device& device, cl_uint cores) {
     const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, static_cast<intptr_t>(cores),
                                                       CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
@@ -22,7 +22,8 @@ Device part_of(const Device& device, cl_uint cores) {
     return Device::adopt(context, cl::CommandQueue(context, parts.front()));
 }
 
-/// Multiply-adds without memory: what more cores can gain at most, as this machine has them now.
+/// Arithmetic that touches no memory. How much faster two cores do it is the most that any scene can gain, on this
+/// machine at this time.
 std::function<void()> multiply_adds(const Device& device) {
     constexpr std::size_t kPixels = std::size_t{1} << 20;
     std::vector<cl::Buffer> in_and_out;

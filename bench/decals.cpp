@@ -18,7 +18,7 @@ namespace wrinkle::bench {
 
 namespace {
 
-constexpr std::size_t kErrorSamples = 256;  // the reference asks every decal
+constexpr std::size_t kErrorSamples = 256;  // few, since the reference evaluates every decal at every one of them
 constexpr double kCoverage = 8;             // decals that a pixel lies in, on average
 
 struct Wanted {
@@ -70,16 +70,16 @@ struct Resident {
         std::vector<cl::Buffer> planes;
         for (const std::string& name : impl.plan.tiles->inputs) planes.push_back(in.planes().at(name));
         impl.bins
-            .enqueue(impl.frame, planes, {.first = 0, .count = impl.size.height}, impl.size.width, 0,
+            .enqueue(impl.frame, impl.numbers, planes, {.first = 0, .count = impl.size.height}, impl.size.width, 0,
                      impl.size.width * impl.size.height, {})
             .wait();
     }
 };
 
-/// Coverage and what of the lists is for nothing, pixel by pixel.
+/// How often pixels are covered, and how much longer the tiles' lists are than they would have to be.
 struct Coverage {
     double per_pixel = 0;  ///< decals that a pixel lies in
-    double listed = 0;     ///< entries of the tiles' lists over pairs of a tile and a decal that touch
+    double listed = 0;     ///< entries of the tiles' lists, for each pair of a tile and a decal that touch
     double bytes = 0;      ///< tables, bounds and lists on the device
 };
 
@@ -138,14 +138,14 @@ std::map<std::filesystem::path, baseline::Image> images_of(const DecalsLayer& la
     return images;
 }
 
-/// Everything of one table that takes part in the race.
+/// One table of decals with all that the race needs of it.
 struct Entrant {
     std::string name;
     Coverage coverage;
     std::unique_ptr<Resident> resident;
     baseline::TileLists lists;
     std::unique_ptr<baseline::DecalTable> plain;
-    std::size_t first = 0;  ///< of its contenders
+    std::size_t first = 0;  ///< number of its first contender
 };
 
 Entrant prepare(const Device& device, const BenchFrame& frame, const Wanted& wanted) {
@@ -185,8 +185,7 @@ Normals normals_of(Resident& resident, std::size_t pixels) {
     return got;
 }
 
-/// Seconds that a table takes to load from a file whose name ends so: the median of five, parsing and validating every
-/// row.
+/// Seconds to load the table from a file with this ending, which parses and checks every row. The median of five.
 double seconds_to_load(const Entrant& e, const char* ending) {
     const TemporaryFolder folder;
     const auto file = folder.path() / fmt::format("decals.{}", ending);

@@ -6,9 +6,9 @@
 
 namespace wrinkle::bench {
 
-/// Tables of decals of different lengths that cover as many pixels of the courtyard as often: the whole pass, its
-/// binning alone, the host's part for a new camera, and plain C++ with the same lists; turn by turn. Group "decals".
-/// `quick`: short tables only, without plain C++.
+/// Tables of 1,000 to 100,000 decals, small enough that each table covers every pixel equally often. Measures the whole
+/// pass, its binning alone, what the host does for a new camera, and plain C++ given the same lists, all in one race.
+/// Group "decals". `quick`: only the short tables, without plain C++.
 void measure_decals(const Device& device, Size size, bool quick, Run& run);
 
 }  // namespace wrinkle::bench

@@ -14,8 +14,8 @@ struct Normals {
     explicit Normals(std::size_t pixels) : x(pixels), y(pixels), z(pixels) {}
 };
 
-/// Reference normals of a scene at a seeded sample of valid pixels; errors are angles in degrees; the reference is
-/// written from the papers (tests/reference).
+/// The right normals of a scene at some of its valid pixels, drawn by a seed, by the double-precision reference of
+/// tests/reference. Errors are angles in degrees.
 class ReferenceSample {
 public:
     ReferenceSample(const Scene& scene, const BenchFrame& frame, std::size_t count, std::uint32_t seed);

@@ -21,14 +21,14 @@ namespace fs = std::filesystem;
 
 constexpr int kChannels = 27;
 
-/// What a pass of a render looks like to a compressor: smooth, with a little grain, in the digits of a half.
+/// Values that compress like a rendered pass: smooth, a little grain, and no more digits than a half has.
 float other_pass(int channel, std::size_t x, std::size_t y) {
     const std::uint32_t grain = static_cast<std::uint32_t>(x * 0x9e3779b1u ^ y * 0x85ebca6bu) * 0x27d4eb2du >> 30;
     const float smooth = 0.5F + 0.3F * std::sin(0.002F * static_cast<float>(x) * static_cast<float>(channel));
     return (std::floor(1024 * smooth) + static_cast<float>(grain)) / 1024;
 }
 
-/// A ZIP EXR of 27 float channels: depth, normals, texture coordinates, and passes that nobody asks for.
+/// Writes a ZIP EXR of 27 float channels: depth, normals, texture coordinates, and passes that the scene does not need.
 void write_frame(const fs::path& file, const BenchFrame& frame) {
     const Size size = frame.frame.size;
     const std::pair<const char*, const char*> known[] = {{"N.X", "normal.x"}, {"N.Y", "normal.y"}, {"N.Z", "normal.z"},

@@ -11,7 +11,7 @@
 
 namespace wrinkle::bench {
 
-/// A G-buffer in memory, and a scene that fits it.
+/// A G-buffer in memory, with its description.
 struct BenchFrame {
     Frame frame;
     std::map<std::string, std::vector<float>> planes;
@@ -20,8 +20,9 @@ struct BenchFrame {
     std::map<std::string, std::span<const float>> spans() const;
 };
 
-/// A scene's G-buffer at any size: bilinear where four neighbours belong to one object without a seam of the texture
-/// coordinates, else the nearest; depth as its reciprocal, which is linear on planes.
+/// A scene's G-buffer at any size. Bilinear where the four pixels around belong to one object and no seam of the
+/// texture coordinates lies between them, else the nearest pixel. Of depth the reciprocal is blended, which is linear
+/// on planes.
 class Resampler {
 public:
     explicit Resampler(const Scene& scene);
@@ -31,7 +32,7 @@ public:
     /// Rows [first, first + count) of a frame of `size`.
     std::map<std::string, std::vector<float>> rows(Size size, std::uint32_t first, std::uint32_t count,
                                                    const std::vector<std::string>& names) const;
-    /// What a pass may count on; of the G-buffer's own size.
+    /// The frame as evaluate() takes it, of the G-buffer's own size.
     const Frame& description() const { return frame_; }
 
 private:
@@ -42,7 +43,7 @@ private:
     std::map<std::string, std::vector<float>> planes_;
 };
 
-/// The scene as all contenders take it: no lighting, Cryptomatte names as hashes.
+/// The scene in a form that all contenders take: without lighting, and with hashes for Cryptomatte names.
 Scene without_lighting(Scene scene, const Frame& frame);
 
 /// Input planes on the device.

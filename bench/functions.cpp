@@ -48,7 +48,7 @@ std::vector<std::vector<double>> results_of(const Device& device, const ColumnKe
     return out;
 }
 
-/// Errors of the function's first measure: what its variants are compared by.
+/// Fills in the errors of the function's first result, by its first measure.
 void add_errors(Measurement& m, const Function& function, const Cases& c,
                 const std::vector<std::vector<double>>& results) {
     std::map<std::string, std::vector<double>> errors;
@@ -67,7 +67,8 @@ void add_errors(Measurement& m, const Function& function, const Cases& c,
     m.hash = hash_of(bits.data(), bits.size());
 }
 
-/// A launch over regular rows; where rows have constants of their own, with those of the first.
+/// A launch over the regular rows of the cases. One launch has one set of constants: where every row has its own, those
+/// of the first row serve for all.
 template <class T>
 class Launch {
 public:

@@ -12,7 +12,7 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
-/// What gnuplot wrote, without what only a file of its own needs.
+/// The <svg> element, without the declarations before it that belong to a file of its own.
 std::string inner_svg(const std::string& svg) {
     const std::size_t start = svg.find("<svg");
     return start == std::string::npos ? std::string{} : svg.substr(start);

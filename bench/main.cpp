@@ -85,7 +85,7 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         return std::ranges::find(parts, part) != parts.end();
     };
     const Size size = a.quick ? Size{960, 540} : a.size;
-    bench::measure_memory(device, size, run);  // always: the ceilings that shares are of
+    bench::measure_memory(device, size, run);  // always, as other parts are shown as shares of its ceilings
     if (wanted("functions")) {
         bench::FunctionBench options{
             .only = a.function, .lanes = a.lanes, .repetitions = run.rounds.least, .speed = !a.quick};
@@ -115,13 +115,13 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         bench::measure_sizes(device, demo, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);
 }
 
-/// Threads of OpenMP that wait spin, and so take time from the kernels that run next. OpenMP reads its settings before
-/// main, so the program starts once more.
+/// Lets the waiting threads of OpenMP sleep. By default they spin, which takes time from the kernels that run next.
+/// OpenMP reads its settings before main, so the program sets the variable and starts itself anew.
 void wait_quietly(char** argv) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
     ::setenv("OMP_WAIT_POLICY", "passive", 1);
     std::error_code unknown;
-    const fs::path self = fs::read_symlink("/proc/self/exe", unknown);  // by its name, for ps and kill
+    const fs::path self = fs::read_symlink("/proc/self/exe", unknown);  // else ps would show it as "exe"
     ::execv(self.c_str(), argv);
 }
 
@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     try {
         const Device device = Device::open(arguments.device);
         bench::Run run;
-        // Bad files are found out before minutes pass.
+        // Files that cannot be read or written are found out now, not after minutes of measuring.
         if (!arguments.compare.empty()) bench::read_run(arguments.compare);
         if (!arguments.report.empty()) bench::make_folder(arguments.report);
         if (arguments.json.has_parent_path()) bench::make_folder(arguments.json.parent_path());

@@ -13,8 +13,8 @@
 
 namespace wrinkle::bench {
 
-/// Times of one thing: median, and the spread between the quartiles as a share of it; the single runs, in the order
-/// of a race, where there was one.
+/// Times of one thing: the median, the distance of the quartiles as a share of it, and the single times, round by
+/// round.
 struct Timing {
     double median = 0, spread = 0;
     std::vector<double> runs{};
@@ -36,7 +36,7 @@ struct Contender {
     Timing seconds{};
 };
 
-/// How long a race goes on: until it has had so many rounds, and has taken so many seconds.
+/// How long a race goes on: until it has had at least so many rounds and has taken at least so many seconds.
 struct Rounds {
     int least = 3;
     double seconds = 0;
@@ -48,7 +48,8 @@ inline std::string text_of(const Rounds& rounds) {
                        rounds.seconds > 0 ? fmt::format(", races of {:g} s or longer", rounds.seconds) : "");
 }
 
-/// Fewer, for work that takes seconds: no more than it takes for the outermost to hold the median with 97%.
+/// Fewer rounds, for work that takes seconds: at most six, which is as few as it takes for the median to lie between
+/// the fastest and the slowest with 97% confidence.
 inline Rounds few(const Rounds& rounds) { return {std::min(6, rounds.least), rounds.seconds}; }
 
 inline double seconds_of(const std::function<void()>& work) {
@@ -57,8 +58,9 @@ inline double seconds_of(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Times all contenders turn by turn, so that a noisy neighbour disturbs all alike, in a random order and back, so that
-/// none profits or suffers by what runs before it; each warms up once.
+/// Times all contenders in rounds: everyone once a round, so that other users of the machine disturb all of them alike.
+/// Rounds alternate between a random order and its reverse, so that none gains or loses by what runs before it. Each
+/// contender runs once beforehand, to warm up.
 inline void race(std::vector<Contender>& contenders, const Rounds& rounds) {
     if (contenders.empty()) return;
     for (const Contender& contender : contenders) contender.work();

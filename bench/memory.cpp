@@ -19,7 +19,7 @@ float value_of(char plane, char axis, std::size_t i) {
     return static_cast<float>(axis == 'x' ? 0.6 * std::cos(angle) : axis == 'y' ? 0.6 * std::sin(angle) : 0.8);
 }
 
-/// Planes as C++ likes them: whole cache lines.
+/// A plane that begins and ends with a cache line.
 class AlignedPlane {
 public:
     explicit AlignedPlane(std::size_t pixels) : lines_((pixels + 15) / 16) {}
@@ -32,7 +32,7 @@ private:
     std::vector<Line> lines_;
 };
 
-/// Angles of planes to normalize(n - g) in double.
+/// The angles between normals that were computed and normalize(n - g) in double.
 ErrorStats resolve_error(const std::vector<const float*>& in, const std::vector<const float*>& out,
                          std::size_t pixels) {
     std::vector<double> degrees;

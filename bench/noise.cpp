@@ -11,17 +11,17 @@ namespace wrinkle::bench {
 namespace {
 
 constexpr std::size_t kPixels = std::size_t{1} << 20;
-constexpr int kOctaves = 8;  // WR_OCTAVES
+constexpr int kOctaves = 8;  // as WR_OCTAVES in kernels/noise.cl
 using Sample = reference::NoiseValue<double>;
 
-/// A pixel's place in space: neighbours lie near each other, as on a surface.
+/// A pixel's position. Neighbouring pixels lie close to each other, as on a surface.
 float coordinate(int axis, std::size_t i) {
     const double x = static_cast<double>(i % 1024) * 0.0137, y = static_cast<double>(i / 1024) * 0.0121;
     return static_cast<float>(axis == 0 ? x : axis == 1 ? y : 0.3 * std::sin(x) + 0.2 * y);
 }
 
-/// The noise of bench/kernels/noise.cl that hashes without a table: the sum over the corners of a cell of fades times
-/// g . d, for 8 octaves; only its value.
+/// One octave of the noise of bench/kernels/noise.cl that hashes without a table: over the corners of a cell, the sum
+/// of fades times direction . distance.
 double hashed_noise(const std::array<double, 3>& p) {
     std::array<std::int32_t, 3> cell{};
     std::array<double, 3> d{};
@@ -65,7 +65,7 @@ Sample octaves(std::size_t i, const Noise& noise) {
 
 Sample by_table(const std::array<double, 3>& p) { return reference::perlin_noise<double>({p[0], p[1], p[2]}); }
 
-/// Its gradient by central differences in double, good to 1e-8.
+/// The same with its gradient, by central differences in double, which are exact to 1e-8.
 Sample by_hash(const std::array<double, 3>& p) {
     const auto slope = [&](std::size_t axis) {
         constexpr double kStep = 1e-5;

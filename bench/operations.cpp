@@ -18,7 +18,7 @@ struct Cost {
     double operations;
 };
 
-// Instructions of LLVM, and OpenCL's functions, which are calls.
+// What to look for in LLVM's text: instructions, intrinsics, and OpenCL's functions, which are calls there.
 constexpr Cost kCosts[] = {{" fadd ", 1},     {" fsub ", 1},         {" fmul ", 1},   {" fdiv ", 1},     {"@_Z3fma", 2},
                            {"@llvm.fma.", 2}, {"@llvm.fmuladd.", 2}, {"@_Z4sqrt", 1}, {"@llvm.sqrt.", 1}};
 

@@ -7,15 +7,15 @@
 
 namespace wrinkle::bench {
 
-/// slow / fast, the spread of it, and bounds of its median.
+/// A ratio of two times, the spread of it from round to round, and bounds of its median.
 struct Ratio {
     double value = 0, spread = 0;
     double low = 0, high = 0;
     bool meaningful = false;  ///< it differs from 1 by more than its spread
 };
 
-/// Medians of up to 20 consecutive parts of what a race gave: what disturbs a round disturbs its neighbours, so that
-/// rounds are no independent measurements, and parts more nearly so.
+/// Divides the rounds of a race into up to 20 consecutive parts, and gives the median of each. What disturbs one round
+/// also disturbs the next, so rounds are not independent measurements; parts nearly are.
 inline std::vector<double> part_medians(const std::vector<double>& rounds) {
     constexpr std::size_t kParts = 20;
     const std::size_t parts = std::min(kParts, rounds.size());
@@ -29,9 +29,9 @@ inline std::vector<double> part_medians(const std::vector<double>& rounds) {
     return medians;
 }
 
-/// Between which of their values the median lies with 95% confidence, whatever the distribution: ranks 0.98 sqrt(n)
-/// from the middle (W. Conover, Practical Nonparametric Statistics, 3.2); of ten or fewer, the outermost, which takes
-/// six.
+/// Two of the values between which the median lies with 95% confidence, whatever their distribution. They are 0.98
+/// sqrt(n) ranks from the middle (W. Conover, Practical Nonparametric Statistics, 3.2). Of ten values or fewer, they
+/// are the least and the largest; with fewer than six, confidence is lower.
 inline std::pair<double, double> median_bounds(std::vector<double> values) {
     std::ranges::sort(values);
     const auto n = static_cast<double>(values.size());
@@ -39,8 +39,8 @@ inline std::pair<double, double> median_bounds(std::vector<double> values) {
     return {values[below], values[values.size() - 1 - below]};
 }
 
-/// slow / fast. Of one race: the median of the ratios of its rounds, since what disturbs a round disturbs both; else
-/// the ratio of the medians, and half the spread either way.
+/// slow / fast. When both ran in one race, it is the median of the ratios of the rounds, since what disturbs a round
+/// disturbs both. Else it is the ratio of the medians, with half the spread either way as its bounds.
 inline Ratio ratio(const Timing& slow, const Timing& fast) {
     Ratio r{slow.median / fast.median, std::hypot(slow.spread, fast.spread)};
     r.low = r.value * (1 - r.spread / 2), r.high = r.value * (1 + r.spread / 2);
@@ -55,7 +55,7 @@ inline Ratio ratio(const Timing& slow, const Timing& fast) {
     return r;
 }
 
-/// What may be said of a ratio: "3.42x", or that its spread is larger than the effect.
+/// "3.42x", or "not told apart" when its spread is larger than its distance from 1.
 inline std::string text_of(const Ratio& r) { return r.meaningful ? fmt::format("{:.2f}x", r.value) : "not told apart"; }
 
 }  // namespace wrinkle::bench

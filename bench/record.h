@@ -20,38 +20,39 @@ struct Measurement {
     Timing seconds{};                          ///< of the whole of `pixels`
     double bytes = 0;                          ///< moved per pixel, each plane once
     double operations = 0;                     ///< floating-point operations per pixel; 0: not counted
-    bool at_most = false;                      ///< operations are those of a pixel that skips nothing
+    bool at_most = false;                      ///< operations are an upper bound: those of a pixel that skips nothing
     std::string unit = "degrees";              ///< of the errors
     ErrorStats error{};                        ///< on regular inputs
     std::map<std::string, ErrorStats> hard{};  ///< by category
-    std::map<std::string, double> figures{};   ///< what else there is to say of it, with the unit in the name
+    std::map<std::string, double> figures{};   ///< other numbers; their names say the unit
     std::string hash{};                        ///< of the results' bits
     double bound = 0;                          ///< documented error; 0: none
-    double memory = 0;                         ///< bytes that the process held at most, above what it began with
+    double memory = 0;                         ///< the most bytes that the process held, above what it held before
 
     double ns_per_pixel() const { return seconds.median / static_cast<double>(pixels) * 1e9; }
     double gb_per_s() const { return bytes * static_cast<double>(pixels) / seconds.median * 1e-9; }
     bool counted() const { return operations > 0 && !at_most; }
     double gflop_per_s() const { return operations * static_cast<double>(pixels) / seconds.median * 1e-9; }
-    /// What tells measurements of two runs apart.
+    /// The same for measurements of the same thing in two runs.
     std::string key() const;
 };
 
-/// A promise about one run: a ratio of what two measurements cost a pixel, and its limit.
+/// A promise and how a run kept it: the ratio of two measurements' times per pixel, and the limit it was promised to
+/// keep.
 struct Bar {
-    std::string name{}, verdict{};  ///< "met", "missed", "not told apart": the limit lies within the bounds
+    std::string name{}, verdict{};  ///< "met", "missed", or "not told apart" when the limit lies within the bounds
     double ratio = 0, spread = 0, limit = 0;
     double low = 0, high = 0;       ///< bounds of the ratio's median
-    bool at_most = true;            ///< else at least
-    std::string of{}, to{};         ///< the two, as keys of measurements
-    double of_p99 = 0, to_p99 = 0;  ///< errors of the two
-    std::string unit{};             ///< of these
+    bool at_most = true;            ///< the limit is an upper one; else a lower one
+    std::string of{}, to{};         ///< keys of the two measurements: time of `of` / time of `to`
+    double of_p99 = 0, to_p99 = 0;  ///< their 99% errors
+    std::string unit{};             ///< of these errors
 };
 
 /// What nothing on this machine can beat, measured in the same run.
 struct Ceilings {
     double copy_gb_s = 0, triad_gb_s = 0, fma_gflop_s = 0;
-    double streamed_triad_gb_s = 0;  ///< in C++, with stores that go past the cache
+    double streamed_triad_gb_s = 0;  ///< a triad in C++, with stores that bypass the cache
 };
 
 struct Run {
@@ -62,8 +63,8 @@ struct Run {
     std::vector<Bar> bars{};
 };
 
-/// The contender of a race that took part under its variant's name; bytes, errors and what else there is to say of it
-/// are still to be filled in. `lanes` 0: not a kernel.
+/// A measurement with the times of a contender, whose name becomes the variant. The caller fills in bytes, errors and
+/// the rest. `lanes` 0: not a kernel.
 Measurement measured(const std::string& group, const std::string& name, const Contender& contender, int lanes,
                      std::size_t pixels);
 
@@ -71,7 +72,7 @@ nlohmann::json to_json(const Run& run);
 /// Throws Error when the file is no run of this program.
 Run read_run(const std::string& file);
 
-/// FNV-1a of the bits of numbers, as 16 hex digits.
+/// The FNV-1a hash of some bytes, as 16 hex digits.
 std::string hash_of(const void* data, std::size_t bytes);
 
 /// The processor's name as the system gives it.

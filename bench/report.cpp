@@ -61,7 +61,7 @@ std::string csv(const Run& run) {
     return text;
 }
 
-/// What of a group is compared with what else.
+/// Variants of `group` are printed as ratios to the variant `base`.
 struct Compared {
     const char *group, *base;
 };
@@ -91,7 +91,7 @@ void print_bars(const Run& run) {
                    b.to_p99, b.unit);
 }
 
-/// "41%" of the ceiling of multiply-adds, where operations are counted.
+/// The share of the ceiling of multiply-adds, as "41%"; "-" where operations were not counted.
 std::string fma_share(const Run& run, const Measurement& m) {
     return m.counted() ? fmt::format("{:.0f}%", 100 * m.gflop_per_s() / run.ceilings.fma_gflop_s) : "-";
 }

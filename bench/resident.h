@@ -11,7 +11,7 @@ struct Image;
 
 namespace wrinkle::bench {
 
-/// How many pixels errors of scenes are measured at, and which.
+/// At how many pixels the errors of scenes are measured, and the seed that draws them.
 inline constexpr std::size_t kErrorSamples = 4096;
 inline constexpr std::uint32_t kSeed = 20201021;
 
@@ -26,11 +26,12 @@ struct Resident {
     Normals normals(std::size_t pixels);
 };
 
-/// Expected per pixel: operations where nothing is skipped, and bytes of each plane once.
+/// Expected of a pass per pixel: its operations when nothing is skipped, and its bytes when each plane is moved once.
 double operations_of(Pass& pass);
 double bytes_of(Pass& pass);
 
-/// A scene by one contender. `work` is the pass whose bytes and operations are the least that any contender needs.
+/// The measurement of a scene by one contender. Bytes and operations are those of `work`, the fused pass: what the
+/// scene needs at least, whatever the contender does.
 Measurement scene_measurement(const std::string& group, const std::string& name, const std::string& variant, int lanes,
                               const Timing& seconds, Pass& work, const Normals& normals,
                               const ReferenceSample& reference);

@@ -22,7 +22,7 @@ Scene only(const Scene& scene, const Layer& layer) {
     return alone;
 }
 
-/// The plain C++ of the scene, or nothing where it does not know a layer.
+/// The scene in plain C++; nothing when one of its layers has no such form.
 std::optional<baseline::Evaluator> plain_evaluator(const Scene& scene, const BenchFrame& frame) {
     try {
         return baseline::Evaluator(scene, frame.frame.size, frame.frame.camera, baseline_images(scene));
@@ -48,7 +48,7 @@ void measure_layers(const Device& device, const Scene& scene, const BenchFrame& 
     }
 }
 
-/// Seconds that `wrinkle run` takes to have the kernels of a scene: built, and from the cache that leaves.
+/// Seconds until `wrinkle run` has the kernels of a scene: when it has to build them, and when they are in the cache.
 std::array<double, 2> build_seconds(const Device& device, const std::filesystem::path& scene) {
     const TemporaryFolder folder;
     const std::string at = folder.path().string();

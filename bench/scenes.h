@@ -8,8 +8,9 @@
 
 namespace wrinkle::bench {
 
-/// A scene by each contender: fused, one kernel a layer, plain C++ where that knows every layer; and, for `layers`,
-/// each layer alone above the empty scene. With seconds to build the kernels, and to take them from the cache.
+/// Measures a scene fused, as one kernel a layer, and in plain C++ where every layer has such a form; with `layers`,
+/// also what each layer alone adds to the time of an empty scene. Records the seconds to build the kernels, and to take
+/// them from the cache.
 void measure_scene(const Device& device, const std::filesystem::path& file, Size size, bool layers, Run& run);
 
 }  // namespace wrinkle::bench

@@ -29,7 +29,8 @@ ErrorStats derivative_error(const BenchFrame& frame, PlaneBuffers& out) {
         const T z = depth[i];
         if (!(z > 0 && z < 1e9L) || !(length > 0)) continue;
         for (std::size_t k = 0; k < 3; ++k) n[k] /= std::sqrt(length), n_d += n[k] * d[k];
-        if (n_d > -0.02L * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])) continue;  // its bound is 1 / cosine
+        // Errors grow as 1 / cosine of the angle of view; below 0.02 they are not compared.
+        if (n_d > -0.02L * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])) continue;
         for (const bool down : {false, true}) {
             const Vec3& axis = down ? rays.dy : rays.dx;
             T n_axis = 0, off = 0, size2 = 0;

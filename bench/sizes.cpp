@@ -19,7 +19,7 @@ std::size_t pixels_of(Size size) { return std::size_t{size.width} * size.height;
 
 std::string megapixels(Size size) { return fmt::format("{:.0f} Mpixel", 1e-6 * static_cast<double>(pixels_of(size))); }
 
-/// A scene's pass over a frame of some size, a band of rows at a time.
+/// Evaluates a scene on a frame of some size, a band of rows at a time.
 class Bands {
 public:
     Bands(const Device& device, const Scene& from_file, const Resampler& resampler, Size size)
@@ -40,7 +40,7 @@ public:
         return {first, count, std::min(first, margin), std::min(size_.height - first - count, margin)};
     }
 
-    /// What the pass reads, of a band.
+    /// The input planes of a band.
     PlaneBuffers load(std::uint32_t band) const {
         const Rows r = rows(band);
         const std::uint32_t count = r.before + r.count + r.after;
@@ -66,7 +66,7 @@ private:
     PlaneBuffers out_;
 };
 
-/// Errors of the same kernels on a frame that fits into memory at once.
+/// Errors of the same kernels on a whole frame, cut down to a size that fits into memory.
 ErrorStats sampled_error(const Device& device, const Scene& scene, const Resampler& resampler, Size size) {
     const BenchFrame frame =
         resampler.frame({std::min(size.width, kBeside.width), std::min(size.height, kBeside.height)});
@@ -83,29 +83,31 @@ double resident_bytes() {
     return pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-/// A frame and the one beside it, each as seconds of the whole frame; and the bytes held meanwhile.
+/// Seconds for a whole frame, and for the one that takes turns with it; and the most bytes held meanwhile.
 struct Turns {
     Timing frame, beside;
     double held = 0;
 };
 
-/// The frame that others take turns with, all of its bands on the device.
+/// The frame of 3840 x 2160 that every other size takes turns with, with all of its bands on the device.
 struct Beside {
     Bands bands;
     std::vector<PlaneBuffers> in{};
-    double seconds_a_band = 0;  ///< about
+    double seconds_a_band = 0;  ///< measured once, to plan a race by
 
     explicit Beside(Bands given) : bands(std::move(given)) {
         for (std::uint32_t band = 0; band < bands.count(); ++band) in.push_back(bands.load(band));
-        for (std::uint32_t band = 0; band < bands.count(); ++band) run(band);  // builds, and touches its memory
+        // The first time builds kernels and touches memory.
+        for (std::uint32_t band = 0; band < bands.count(); ++band) run(band);
         for (std::uint32_t band = 0; band < bands.count(); ++band)
             seconds_a_band += seconds_of([&] { run(band); }) / bands.count();
     }
     void run(std::uint32_t band) { bands.run(band, in[band]); }
 };
 
-/// Frame and the one beside it band by band in turns: through the frame once, or often enough to go through the one
-/// beside it; every round sums up its own turns.
+/// Races the two frames band against band, so that both meet the same disturbances. Goes once through the bands of
+/// `frame`, or several times through each when it has fewer than `beside`. The times of a round are added up over all
+/// bands.
 Turns take_turns(Bands& frame, Beside& beside, double held_before, const Rounds& rounds) {
     const std::uint32_t times = std::max(beside.bands.count() / frame.count(), 1u), steps = times * frame.count();
     const double once = 2 * steps * beside.seconds_a_band;
@@ -139,7 +141,7 @@ void measure_sizes(const Device& device, const std::filesystem::path& file, cons
     const ErrorStats beside_error = sampled_error(device, beside.bands.scene, resampler, kBeside);
     std::vector<Measurement> turned;
     for (const Size size : sizes) {
-        ::malloc_trim(0);  // what earlier sizes let go
+        ::malloc_trim(0);  // gives memory that earlier sizes freed back to the system, or it would count as held
         const double held_before = resident_bytes();
         Bands frame(device, from_file, resampler, size);
         const Turns turns = take_turns(frame, beside, held_before, few(run.rounds));

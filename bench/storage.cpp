@@ -12,7 +12,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-/// IEEE half, to nearest, of a number that is not larger than 65504.
+/// The nearest IEEE half of a number of at most 65504.
 std::uint16_t half_of(float v) {
     const auto bits = std::bit_cast<std::uint32_t>(v);
     const float size = std::abs(v);
@@ -56,7 +56,7 @@ void measure_storage(const Device& device, Size size, Run& run) {
     constexpr std::uint32_t kSeed = 14;
     std::mt19937 random(kSeed);
     std::normal_distribution<double> normal;
-    constexpr std::size_t kPeriod = 65537;  // as many different pixels
+    constexpr std::size_t kPeriod = 65537;  // number of different pixels, which then repeat
     std::vector<Vector> n(kPeriod), g(kPeriod);
     for (std::size_t i = 0; i < kPeriod; ++i) {
         for (double& part : n[i]) part = normal(random);

@@ -7,7 +7,7 @@
 
 namespace wrinkle::bench {
 
-/// A folder that goes when its object does.
+/// A folder that is deleted, with all in it, when its object is destroyed.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

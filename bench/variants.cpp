@@ -19,7 +19,7 @@ struct Way {
     int lanes = 0;  ///< 0: the device's own
 };
 
-/// A job by name, every way to do it a variant of it.
+/// All ways to measure. Ways of one name do the same job and differ in their variant or number of lanes.
 std::vector<Way> ways(int lanes) {
     std::vector<Way> all;
     const auto add = [&](const std::string& name, const Bump& bump, bool footprint, bool on_others) {

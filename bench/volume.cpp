@@ -16,7 +16,7 @@ namespace wrinkle::bench {
 
 namespace {
 
-constexpr std::size_t kPixels = std::size_t{1} << 20;  // of a walk
+constexpr std::size_t kPixels = std::size_t{1} << 20;  // points of a walk
 constexpr std::size_t kRow = 1024;
 
 /// A smooth field; every voxel differs from its neighbours.
@@ -25,7 +25,7 @@ float voxel(int x, int y, int z) {
                               std::sin(0.23 * z + 0.17 * x));
 }
 
-/// The field as blocks.
+/// The field as a Volume without empty blocks.
 Volume blocks_of(int size) {
     Volume volume;
     const int edge = Volume::edge, count = size / edge;
@@ -45,7 +45,7 @@ Volume blocks_of(int size) {
 
 using Points = std::array<std::vector<float>, 3>;
 
-/// Forth and back between the faces of the grid.
+/// Folds a coordinate back and forth between the faces of the grid, so that walks stay inside.
 float within(double v, int size) {
     const double span = size - 4, period = 2 * span;
     double at = std::fmod(v, period);
@@ -99,7 +99,7 @@ cl::Buffer buffer(const Device& device, std::vector<T>& values) {
     return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data()};
 }
 
-/// A kernel on the device's lanes with its volume.
+/// A kernel and the volume that it samples.
 struct Sampler {
     const char* name;
     Sample exact;

@@ -16,7 +16,7 @@ typedef struct {
     WR_SCALAR forward[3];  // along the rays of a parallel projection, per unit of view depth
     // What a float leaves of d0 ... w, for exact variants; not to be added in double
     WR_SCALAR d0_low[3], dx_low[3], dy_low[3], c0_low[3], c1_low[3], c2_low[3], c3_low[3], w_low[4];
-} wr_frame;
+} wr_camera;
 
 // A projector: a decal, or a row of a table of them. q = to_box (p - center) is in [-1,1]^3 inside its box. Shapes: 0
 // box, 1 sphere, 2 cone.

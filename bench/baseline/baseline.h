@@ -12,13 +12,13 @@
 #include "wrinkle/error.h"
 #include "wrinkle/scene.h"
 
-/// The same layers as a good programmer writes them in plain C++ from the listings of [Mik20]: float, float3 structs,
-/// one pixel at a time, OpenMP over rows, -O3 -march=native -ffast-math. The clamps and forms are the published ones.
-/// It is what the kernels must beat, so whatever costs nothing in clarity is done: constants per scene, slopes instead
-/// of texels, padded mips, no work where a mask is zero. It is not vectorised by hand.
+/// The layers as a good programmer writes them in plain C++ from the listings of [Mik20]: float, float3 structs, one
+/// pixel at a time, OpenMP over rows, -O3 -march=native -ffast-math. Formulas and clamps are the published ones.
+/// The kernels are compared with this, so it is made fast by every means that leaves it readable: constants computed
+/// once per scene, textures stored as slopes, padded mips, no work where a mask is zero. It is not vectorised by hand.
 namespace wrinkle::baseline {
 
-/// A layer that exists as kernels only.
+/// Thrown for a layer that has no plain C++ form.
 struct Unsupported : Error {
     using Error::Error;
 };
@@ -33,9 +33,9 @@ using PlaneMap = std::map<std::string, std::span<const float>>;
 
 class Evaluator {
 public:
-    /// Prepares everything that does not depend on the pixels. `textures` by the file names used in the scene,
-    /// `cryptomatte` by object name; "#" and 8 hex digits need no entry. Throws Error for what is missing, Unsupported
-    /// for layers that it does not know.
+    /// Prepares everything that does not depend on the pixels. `textures`: by the file names used in the scene.
+    /// `cryptomatte`: hashes by object name; names written as "#" and 8 hex digits need no entry. Throws Error when a
+    /// texture or hash is missing, Unsupported when there is no plain C++ form of a layer.
     Evaluator(const Scene& scene, Size size, const Camera& camera,
               const std::map<std::filesystem::path, Image>& textures,
               const std::map<std::string, std::uint32_t>& cryptomatte = {});
@@ -43,7 +43,8 @@ public:
     Evaluator(Evaluator&&) noexcept;
     Evaluator& operator=(Evaluator&&) noexcept;
 
-    /// New normals of a frame. `depth` of automatic kind is planar. Throws Error for a missing or misshapen plane.
+    /// Writes the new normals of a frame. Where the scene does not say what kind of depth it has, depth is planar.
+    /// Throws Error when a plane is missing or not of the frame's size.
     void run(const PlaneMap& planes, std::span<float> nx, std::span<float> ny, std::span<float> nz) const;
 
 private:
@@ -61,10 +62,10 @@ struct Planes {
 /// out = normalize(n - g): 24 bytes read and 12 written per pixel, and hardly any arithmetic.
 void resolve(ConstPlanes n, ConstPlanes g, Planes out);
 
-/// The same with stores that go past the cache, where the machine has AVX; planes aligned to 32 bytes.
+/// The same with stores that bypass the cache, where the machine has AVX. Planes must be aligned to 32 bytes.
 void resolve_streaming(ConstPlanes n, ConstPlanes g, Planes out);
 
-/// out = a + 3 b as in the STREAM benchmark, likewise past the cache: 8 bytes read and 4 written per pixel.
+/// out = a + 3 b as in the STREAM benchmark, with stores that bypass the cache: 8 bytes read and 4 written per pixel.
 void triad_streaming(std::span<const float> a, std::span<const float> b, std::span<float> out);
 
 }  // namespace wrinkle::baseline

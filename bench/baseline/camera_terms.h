@@ -36,8 +36,8 @@ inline ScreenDerivatives screen_derivatives(const CameraTerms& camera, float3 po
     return {inverse_denom * (ipw.w * xyz(v0) - v0.w * xyz(ipw)), inverse_denom * (ipw.w * xyz(v1) - v1.w * xyz(ipw))};
 }
 
-/// Listing 10 for a pinhole camera: the plane meets the ray d at z = n.p / n.d, so dz/dx = -z n.dx / n.d. The guard of
-/// the division is that of the listing. Half the arithmetic of the general form, so it is used wherever it holds.
+/// Listing 10 for a pinhole camera: the surface's plane meets the ray d at z = n.p / n.d, so dz/dx = -z n.dx / n.d. The
+/// division is guarded as in the listing. It takes half the arithmetic of the general form.
 inline ScreenDerivatives pinhole_derivatives(const CameraTerms& camera, float3 d, float n_p, float3 n) {
     const float n_d = dot(n, d);
     const float guarded = n_d < 0.0F ? std::fmin(n_d, -float_epsilon) : std::fmax(n_d, float_epsilon);

@@ -20,7 +20,7 @@ void require_same(const A& a, const B& b) {
 
 }  // namespace
 
-/// Listing 1 on planes. The compiler cannot prove nine spans apart, so it is told.
+/// Listing 1 on planes. The compiler cannot prove that nine spans do not overlap, so "omp simd" says it.
 void resolve(ConstPlanes n, ConstPlanes g, Planes out) {
     require_same(n, g);
     require_same(n, out);
@@ -50,7 +50,7 @@ void stream(float* plane, std::ptrdiff_t i, Vector v) {
     *reinterpret_cast<Vector*>(plane + i) = v;
 #endif
 }
-/// Whole vectors; what is left over is done in full, since planes are padded to them.
+/// Number of vectors, rounded up: planes are padded, so the last vector may reach beyond the last pixel.
 std::ptrdiff_t vectors(std::size_t count) { return (static_cast<std::ptrdiff_t>(count) + kVector - 1) / kVector; }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct Row {
     float3 to_x, to_y, to_z, centre;  ///< q.x = to_x . (p - centre)
     float3 axis_z;
     float strength_x, strength_y;
-    float3 per_falloff;  ///< 0: hard
+    float3 per_falloff;  ///< 1 / falloff; 0: hard edges
     float fade_from, per_fade;
     float2 repeat;
     float opacity;

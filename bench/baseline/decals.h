@@ -7,23 +7,23 @@
 #include "baseline.h"
 #include "camera_terms.h"
 
-/// Tables of decals in plain C++ from listing 15 of [Mik20]: boxes, spheres and cones that add or replace, given the
-/// list of each tile. One pixel at a time, OpenMP over rows of tiles.
+/// Tables of decals in plain C++ from listing 15 of [Mik20]: boxes, spheres and cones that add or replace. Which decals
+/// touch which tile of the frame is given. One pixel at a time, OpenMP over rows.
 namespace wrinkle::baseline {
 
 struct TileLists {
     int tile_width = 0, tile_height = 0;
-    std::vector<std::vector<std::uint32_t>> lists;  ///< tile by tile in rows; numbers of rows in the table
+    std::vector<std::vector<std::uint32_t>> lists;  ///< of each tile, row by row: numbers of decals in the table
 };
 
 class DecalTable {
 public:
-    /// Rows without masks of their own. `textures` by the file names used in the layer.
+    /// The table's rows may not have masks. `textures`: by the file names used in the layer.
     DecalTable(const DecalsLayer& layer, double scale, Size size, const Camera& camera,
                const std::map<std::filesystem::path, Image>& textures);
     ~DecalTable();
 
-    /// New normals of a frame of planar depth.
+    /// Writes the new normals of a frame with planar depth.
     void run(const Scene& scene, const PlaneMap& planes, const TileLists& tiles, Planes out) const;
 
 private:

@@ -20,7 +20,7 @@ struct Evaluator::Prepared {
 
 namespace {
 
-/// Texture coordinates of the UV plane, found when a layer first asks.
+/// Texture coordinates from the UV plane. They are computed when the first layer of a pixel asks for them.
 struct AovUv {
     enum class State { unknown, found, missing } state = State::unknown;
     Uv uv;
@@ -36,15 +36,15 @@ struct Place {
     std::size_t i;
 };
 
-/// One pixel on its way through the stages. Everything is inlined into evaluate_row (flatten), so this lives in
-/// registers; out of line, the stores and reloads of float3 members cost as much as the arithmetic.
+/// One pixel on its way through the stages. All functions are inlined into evaluate_row (gnu::flatten), so this lives
+/// in registers: if they were called, storing and loading the float3 members would cost as much as the arithmetic.
 struct Pixel {
     float3 p;                ///< relative to the eye
     float3 n, dp_dx, dp_dy;  ///< of the current stage
 };
 
-/// Sums of a stage. Volume gradients are projected once (listing 8); the screen derivatives of all heights go through
-/// listing 6 once: both are linear.
+/// Sums of a stage. Listings 6 and 8 are linear, so they are applied once to a sum instead of once per layer: listing 8
+/// to the volume gradients, listing 6 to the screen derivatives of the heights.
 struct Sums {
     float3 surface, volume;
     float2 dh_dxy;
@@ -86,7 +86,7 @@ float mask(const PreparedLayer& layer, const Place& at, const Pixel& px, AovUv& 
     return m.invert ? 1.0F - value : value;
 }
 
-/// Scale times mask; 0 means that the layer has nothing to do here.
+/// Scale times mask. Where it is 0, the layer does nothing.
 float weight(const PreparedLayer& layer, const Place& at, const Pixel& px, AovUv& aov) {
     return layer.mask.any ? layer.scale * mask(layer, at, px, aov) : layer.scale;
 }
@@ -122,7 +122,7 @@ void add(const Triplanar& map, const PreparedLayer& layer, const Place& at, cons
     sums.volume += (k * map.slope_scale) * triplanar_volume_gradient(w, d_x, d_y, d_z);
 }
 
-/// A fractal sum; octaves fade out between a quarter and half a cell per pixel.
+/// A fractal sum. An octave fades out while a pixel grows from a quarter to half of its cell.
 void add(const Noise& noise, const PreparedLayer& layer, const Place& at, const Pixel& px, AovUv& aov, Sums& sums) {
     const float k = weight(layer, at, px, aov);
     if (k == 0.0F) return;

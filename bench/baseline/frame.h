@@ -7,7 +7,7 @@
 
 namespace wrinkle::baseline {
 
-/// A pixel of the G-buffer as the layers want it.
+/// A pixel of the G-buffer, decoded.
 struct Decoded {
     float3 p;  ///< relative to the eye
     float3 n;  ///< unit, towards the viewer
@@ -21,7 +21,7 @@ public:
 
     Frame(const Scene& scene, Size size, const CameraTerms& camera, const PlaneMap& planes);
 
-    /// Of the frame's size, or null.
+    /// Null when the frame has no such plane. Throws Error when the plane is not of the frame's size.
     Plane find(const std::string& name) const;
     /// A channel of the G-buffer by its own name; throws Error when there is none.
     Plane channel(const std::string& name) const;

@@ -12,13 +12,14 @@
 #include "texture.h"
 #include "uv.h"
 
-/// The layers of a scene with everything computed that no pixel changes.
+/// The layers of a scene, with everything precomputed that is the same for all pixels.
 namespace wrinkle::baseline {
 
 using Slopes = std::shared_ptr<const Pyramid<float2>>;
 using Scalars = std::shared_ptr<const Pyramid<float>>;
 
-/// A height map or a normal map as a source of slopes per unit s, t; plain heights keep their texels.
+/// Slopes per unit s, t, from a height map or a normal map. With upscale = "plain", texels stay heights (`plain`) and
+/// are differenced at every sample; else they were made slopes when they were loaded (`slopes`).
 struct SlopeSource {
     Slopes slopes;
     Scalars plain;
@@ -41,7 +42,7 @@ struct PreparedMask {
     bool any = false, invert = false;
     std::optional<float> object;
     std::optional<std::uint32_t> cryptomatte;
-    int channel = -1;  ///< index into the frame's mask channels
+    int channel = -1;  ///< index into LayerBuilder::channels; -1: none
     Scalars texture;
     UvTransform uv;
 };
@@ -60,7 +61,7 @@ struct Triplanar {
 };
 struct Noise {
     struct Octave {
-        float frequency, amplitude;  ///< amplitude = gain^i frequency: the chain rule included
+        float frequency, amplitude;  ///< amplitude of the gradient: gain^i times the frequency, by the chain rule
     };
     std::vector<Octave> octaves;
 };
@@ -70,7 +71,7 @@ struct Decal {
     float3 centre;
     float3 axis_z;
     float3 grad_s, grad_t;  ///< volume gradient per unit slope
-    float per_falloff;      ///< 0: hard faces
+    float per_falloff;      ///< 1 / falloff; 0: hard edges
     float fade_from, per_fade;
 };
 struct Constant {
@@ -84,7 +85,7 @@ struct PreparedLayer {
     PreparedMask mask;
 };
 
-/// Layers up to a resolve.
+/// The layers between two resolves.
 struct Stage {
     std::vector<PreparedLayer> layers;
     bool screen_derivatives = false;
@@ -97,7 +98,7 @@ public:
         : camera_(camera), textures_(textures), cryptomatte_(cryptomatte) {}
 
     std::vector<Stage> stages(const Scene& scene);
-    std::vector<std::string> channels;  ///< that masks read, in the order of PreparedMask::channel
+    std::vector<std::string> channels;  ///< read by masks; PreparedMask::channel is an index into them
     bool aov_uv = false;                ///< some layer or mask reads the UV plane
 
 private:

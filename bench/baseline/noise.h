@@ -12,7 +12,7 @@ struct NoiseSample {
     float3 gradient;
 };
 
-/// grad() of the reference implementation as a table, already looked up through the permutation.
+/// The directions that grad() of Perlin's reference implementation chooses, with the permutation already applied.
 struct NoiseTables {
     std::array<std::uint8_t, 512> p{};
     std::array<float3, 512> gradient{};
@@ -32,7 +32,8 @@ inline constexpr NoiseTables noise_tables;
 inline float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 inline float fade_slope(float t) { return 30 * t * t * (t * (t - 2) + 1); }
 
-/// Perlin 2002 with its analytic gradient. A caller that drops the value does not pay for it: this is inlined.
+/// Perlin's noise of 2002 with its analytic gradient. It is inlined, so a caller that ignores the value does not pay
+/// for it.
 inline NoiseSample perlin_noise(float3 p) {
     const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
     const int cx = static_cast<int>(fx) & 255, cy = static_cast<int>(fy) & 255, cz = static_cast<int>(fz) & 255;
@@ -49,7 +50,8 @@ inline NoiseSample perlin_noise(float3 p) {
     const float n001 = dot(g001, {x, y, z - 1}), n101 = dot(g101, {x - 1, y, z - 1});
     const float n011 = dot(g011, {x, y - 1, z - 1}), n111 = dot(g111, {x - 1, y - 1, z - 1});
 
-    // Interpolated gradients, plus the slope of the weights times the differences of the corner values.
+    // The gradient is the corners' gradients, interpolated, plus the slopes of the weights times the differences of the
+    // corners' values.
     const float3 mean =
         lerp(lerp(lerp(g000, g100, u), lerp(g010, g110, u), v), lerp(lerp(g001, g101, u), lerp(g011, g111, u), v), w);
     const float n00 = lerp(n000, n100, u), n10 = lerp(n010, n110, u);

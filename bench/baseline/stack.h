@@ -9,15 +9,15 @@
 
 namespace wrinkle::baseline {
 
-/// A scene of box decals without masks, footprints or hard edges over planar depth of a pinhole camera, prepared for
-/// any of the ways to write it.
+/// A scene of box decals, prepared for every way in which the benchmark writes it. The decals have no masks, footprints
+/// or hard edges; the camera is a pinhole, and depth is planar.
 class DecalStack {
 public:
     /// Throws Unsupported for any other scene.
     DecalStack(const Scene& scene, Size size, const Camera& camera,
                const std::map<std::filesystem::path, Image>& textures);
 
-    /// New normals, on every core.
+    /// Writes the new normals, on all cores.
     void run(StackRows rows, const PlaneMap& planes, Planes out) const;
 
 private:
@@ -27,7 +27,7 @@ private:
     std::vector<StackDecal> decals_;
 };
 
-/// Ways to write the stack that this build has, by name.
+/// The ways to write the stack that were compiled for this machine, by name.
 std::map<std::string, StackRows> stack_forms();
 
 }  // namespace wrinkle::baseline

@@ -4,8 +4,8 @@
 
 #include "stack_job.h"
 
-// The stack vectorised by hand with std::experimental::simd: one load fetches a pair of two-channel texels, four lanes
-// are transposed at a time.
+// The stack vectorised by hand with std::experimental::simd. Each load fetches two neighbouring texels of two channels;
+// those of four pixels are then transposed into vectors.
 namespace wrinkle::baseline {
 
 namespace {
@@ -95,7 +95,7 @@ struct Lanes {
             for (int k = 0; k < count; ++k) plane[at + k] = v[static_cast<std::size_t>(k)];
     }
 
-    /// Up to `width` pixels of a row.
+    /// The next `width` pixels of a row, or as many as it still has.
     static void pixels(const StackJob& job, int x, int y) {
         const int at = y * job.width + x, count = job.width - x;
         const Vector raw{loaded(job.n_x, at, count), loaded(job.n_y, at, count), loaded(job.n_z, at, count)};

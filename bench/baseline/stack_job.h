@@ -1,15 +1,15 @@
 #pragma once
 
-/// A stack of box decals over planar depth, as plain as data can be: what compilers of other makes and other flags are
-/// given, so that nothing but their code differs.
+/// A stack of box decals over planar depth, as arrays and pointers only: every compiler and every set of flags gets the
+/// same data, so that only their code differs.
 namespace wrinkle::baseline {
 
 struct StackDecal {
     float to_x[3], to_y[3], to_z[3], centre[3];  ///< q.x = to_x . p - centre[0], inside the box within [-1, 1]
     float axis_z[3], grad_s[3], grad_t[3];       ///< volume gradient per unit slope
     float per_falloff, fade_from, per_fade;
-    const float* slopes;        ///< d/ds, d/dt side by side; a texel of border on every side
-    int width, height, stride;  ///< texels; of a row with its border
+    const float* slopes;        ///< d/ds and d/dt of a texel side by side; with a border of one texel all round
+    int width, height, stride;  ///< in texels; stride: a row with its border
 };
 
 struct StackJob {

@@ -4,8 +4,8 @@
 
 #include "stack_job.h"
 
-// Compiled twice: WRINKLE_STACK_ROWS names the function. Nothing is inline and shared, so that the linker cannot put
-// one build's code into the other.
+// Compiled twice, with different flags; WRINKLE_STACK_ROWS is the name of the function. Everything else is local to
+// this file: were it inline in a header, the linker could take one build's code for both.
 namespace wrinkle::baseline {
 
 namespace {
@@ -25,7 +25,7 @@ float lerp(float a, float b, float t) { return a + t * (b - a); }
 bool finite(float v) { return (std::bit_cast<std::uint32_t>(v) & 0x7f800000U) != 0x7f800000U; }
 bool finite(float3 v) { return finite(v.x) && finite(v.y) && finite(v.z); }
 
-/// Listing 15 up to its projection.
+/// Listing 15 without its last step, the projection onto the surface: that is done once, for the sum.
 float3 gradient(const StackDecal& decal, float3 p, float3 n) {
     const float qx = dot(vector(decal.to_x), p) - decal.centre[0];
     if (std::abs(qx) > 1.0F) return {};

@@ -4,8 +4,8 @@
 
 #include "stack_job.h"
 
-// The stack as one writes it for a vectoriser: structure of arrays, a block of pixels in the first cache, decals
-// outside, pixels inside. Compiled by g++ and by clang++: WRINKLE_STACK_ROWS names the function.
+// The stack as one writes it for a compiler to vectorise: structures of arrays, blocks of pixels that fit the first
+// cache, the loop over pixels innermost. Compiled by g++ and by clang++; WRINKLE_STACK_ROWS is the function's name.
 namespace wrinkle::baseline {
 
 namespace {
@@ -42,7 +42,7 @@ void decode(const StackJob& job, Block& b, int at, int x0, int y, int count) {
     }
 }
 
-/// Where the pixels lie in the box, and their weights. False where all of them are outside.
+/// Finds where the pixels lie in the box, and their weights. False when all of them lie outside.
 bool locate(const StackDecal& d, Block& b, int count) {
     int any = 0;
 #pragma omp simd reduction(| : any)

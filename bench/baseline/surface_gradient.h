@@ -2,8 +2,8 @@
 
 #include "vec.h"
 
-/// The small listings of [Mik20]. Globals of the listings are parameters; dPdx and dPdy come from listing 10, so they
-/// are perpendicular to the normal and equal to sigmaX and sigmaY (section 3.7).
+/// The short listings of [Mik20], with their globals as parameters. dPdx and dPdy come from listing 10, so they are
+/// perpendicular to the normal and equal to sigmaX and sigmaY (section 3.7).
 namespace wrinkle::baseline {
 
 /// Listing 1.
@@ -17,7 +17,7 @@ inline float2 tspace_normal_to_derivative(float3 m, bool flip) {
     return {-m.x / z_ma, (flip ? m.y : -m.y) / z_ma};
 }
 
-/// Listings 3 and 4 with the flip_sign of listing 9. Degenerate texture coordinates have no frame: zero.
+/// Listings 3 and 4 with the flip_sign of listing 9. Zero where texture coordinates are degenerate and have no frame.
 inline float3 surfgrad_from_tangent_derivative(float2 deriv, float3 n, float3 dp_dx, float3 dp_dy, float2 dst_dx,
                                                float2 dst_dy) {
     const float det = dst_dx.x * dst_dy.y - dst_dx.y * dst_dy.x;
@@ -37,15 +37,15 @@ inline float3 surfgrad_scale_dependent(float2 dh_dxy, float3 n, float3 dp_dx, fl
     return (s * dh_dxy.x) * r1 + (s * dh_dxy.y) * r2;
 }
 
-/// Listing 8. Volume gradients add up (section 4.5), so listings 13 and 15 end in one call of this per stage.
+/// Listing 8. Volume gradients add up (section 4.5), so a stage calls this once, for the sum of listings 13 and 15.
 inline float3 surfgrad_from_volume_gradient(float3 n, float3 grad) { return grad - dot(n, grad) * n; }
 
-/// Listing 13 without its last line.
+/// Listing 13 without its last line, the projection.
 inline float3 triplanar_volume_gradient(float3 w, float2 deriv_x, float2 deriv_y, float2 deriv_z) {
     return {w.z * deriv_z.x + w.y * deriv_y.x, w.z * deriv_z.y + w.x * deriv_x.y, w.x * deriv_x.x + w.y * deriv_y.y};
 }
 
-/// Listing 14. The published exponent, 3, is worth its own branch: std::pow costs more than the rest of the layer.
+/// Listing 14. The published exponent, 3, has its own branch, since std::pow costs more than the rest of the layer.
 inline float3 triplanar_weights(float3 n, float k) {
     float3 w{std::fmax(0.0F, std::abs(n.x) - 0.2F), std::fmax(0.0F, std::abs(n.y) - 0.2F),
              std::fmax(0.0F, std::abs(n.z) - 0.2F)};

@@ -15,7 +15,7 @@ const T& at(const Grid<T>& grid, int x, int y, Wrap wrap) {
     return grid.at(wrapped(x, grid.width, wrap), wrapped(y, grid.height, wrap));
 }
 
-/// Mean of the 2x2 below; the last column and row of odd sizes fall away, a size of 1 repeats.
+/// The next mip: means of 2x2 texels. Of odd sizes the last column or row is dropped; a side of 1 stays 1.
 template <class T>
 Grid<T> halved(const Grid<T>& in) {
     Grid<T> out{std::max(1, in.width / 2), std::max(1, in.height / 2), {}};

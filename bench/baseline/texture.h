@@ -16,8 +16,8 @@ struct Grid {
     const T& at(int x, int y) const { return texels[static_cast<std::size_t>(y) * width + x]; }
 };
 
-/// A mip pyramid whose levels carry a border of one wrapped (or repeated) texel, so a bilinear sample needs no wrap
-/// logic and its pairs are neighbours in memory.
+/// A mip pyramid. Every level has a border of one texel, wrapped or repeated, so that bilinear samples need no wrapping
+/// and their pairs of texels are neighbours in memory.
 template <class T>
 class Pyramid {
 public:
@@ -47,8 +47,8 @@ private:
     };
 
     T bilinear(const Level& level, float2 st) const {
-        // Half a texel to the centres and one for the border: never negative, so truncation is floor. The min also
-        // catches what NaN leaves in an int, as it does for the level.
+        // Centres of texels lie half a texel in, and the border adds one: coordinates are never negative, so truncation
+        // is floor. The minimum also keeps indices within the texture where coordinates were NaN.
         const float x = st.x * level.fwidth + 0.5F, y = st.y * level.fheight + 0.5F;
         const unsigned ix = std::min(static_cast<unsigned>(static_cast<int>(x)), level.width);
         const unsigned iy = std::min(static_cast<unsigned>(static_cast<int>(y)), level.height);
@@ -62,11 +62,11 @@ private:
     int width_, height_;
     Wrap wrap_;
     unsigned last_;
-    std::vector<Level> levels_;  ///< and the last one again, as its own coarser neighbour
+    std::vector<Level> levels_;  ///< the last one twice, so that every level has a coarser one
     std::vector<T> texels_;
 };
 
-/// Levels of detail of a footprint, and the side of the footprint in texels of level 0: 2^lod.
+/// The level of detail of a footprint, and its side in texels of level 0, which is 2^lod.
 struct Footprint {
     float lod = 0, texels = 1;
 };
@@ -82,14 +82,14 @@ inline Footprint footprint(float2 dst_dx, float2 dst_dy, int width, int height, 
     return {lod, std::sqrt(texels2)};
 }
 
-/// Channel 0 of an image: masks, and heights for the plain slope.
+/// Channel 0 of an image: for masks, and for heights that are differenced at every sample.
 Pyramid<float> scalar_pyramid(const Image& image, Wrap wrap);
 
-/// dh/ds, dh/dt by the Sobel operator of each level [Mik20 eq. 20, 21]. The smooth half of listing 16 filters slopes
-/// made from 4x4 heights on the fly; made at load, a sample is 4 texels, not 16.
+/// dh/ds, dh/dt by the Sobel operator on each level [Mik20 eq. 20, 21]. The smooth half of listing 16 computes them at
+/// every sample, from 4x4 heights; computed once at load, a sample reads 4 texels instead of 16.
 Pyramid<float2> height_slope_pyramid(const Image& image, Wrap wrap);
 
-/// Listing 2 per texel, at load: no divide and a channel less per sample. Mips are means of slopes.
+/// Listing 2 for every texel, at load: a sample then needs no division and one channel less. Mips are means of slopes.
 Pyramid<float2> normal_slope_pyramid(const Image& image, Wrap wrap, bool y_down);
 
 /// The plain half of listing 16, times the texture's size: dh/ds, dh/dt.

@@ -66,13 +66,14 @@ bool tangent_derivatives(float3 dp_du, float3 dp_dv, float3 dp_dx, float3 dp_dy,
     return true;
 }
 
-/// A step over the surface and what the coordinates change by along it.
+/// A step along the surface, and the change of the texture coordinates along it.
 struct Change {
     float2 uv;
     float3 step;
 };
 
-/// The change to the pixel at (x + step_x, y + step_y), if that one lies on the same surface and chart.
+/// The change towards the pixel at (x + step_x, y + step_y). False when that pixel lies on another surface, or across a
+/// seam of the texture coordinates.
 bool difference(const Frame& frame, const RowWindow& window, int x, int y, int step_x, int step_y, float reach2,
                 float2 uv, Change& out) {
     const int nx = x + step_x, ny = y + step_y;
@@ -110,7 +111,8 @@ bool axis_change(const Frame& frame, const RowWindow& window, int x, int y, int 
     return true;
 }
 
-/// The gradient that explains both changes, for steps of dp_dx and dp_dy.
+/// Texture coordinates change linearly near a pixel: finds the linear map that explains both changes, and what it gives
+/// for steps of dp_dx and dp_dy.
 void derivatives_from_changes(const Change& x, const Change& y, const ScreenDerivatives& d, Uv& out) {
     out.dst_dx = x.uv;
     out.dst_dy = y.uv;
@@ -130,7 +132,8 @@ void derivatives_from_changes(const Change& x, const Change& y, const ScreenDeri
 
 }  // namespace
 
-/// Texture coordinates belong to the surface: whichever stage asks, dp_dx and dp_dy are those of the base normal.
+/// Texture coordinates belong to the rendered surface. So dp_dx and dp_dy are those of the base normal here, also in
+/// later stages, whose normals are bumped.
 bool aov_uv(const Frame& frame, UvDerivatives kind, const RowWindow& window, int x, int y, Uv& out) {
     const std::size_t i = frame.index(x, y);
     out.st = at(frame.uv, i);

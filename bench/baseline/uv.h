@@ -9,7 +9,7 @@ struct Uv {
     float2 st, dst_dx, dst_dy;
 };
 
-/// A UvMapping as constants; for planar coordinates the mapping is folded into the axes and the eye.
+/// A UvMapping as constants. For planar coordinates, the axes and the offset hold the mapping and the eye's position.
 struct UvTransform {
     bool planar = false;
     float2 row_s, row_t;    ///< aov: s = row_s . (u,v) + offset.x
@@ -33,7 +33,8 @@ struct UvTransform {
 enum class UvDerivatives { planes, tangents, neighbours };
 UvDerivatives uv_derivatives(const Frame& frame);
 
-/// Decoded rows y-1, y, y+1 of the band a thread works on: neighbours are decoded once, not five times.
+/// Keeps rows y-1, y and y+1 decoded, one window for each thread. Without it, a pixel would be decoded five times: for
+/// itself and for each of its four neighbours.
 class RowWindow {
 public:
     explicit RowWindow(const Frame& frame);
@@ -46,7 +47,8 @@ private:
     std::array<std::vector<Decoded>, 3> rows_;
 };
 
-/// The UV plane at a pixel with its derivatives; false where there are none. `window` is read for neighbours only.
+/// Texture coordinates of a pixel with their derivatives. False where they have none. `window` is used only when `kind`
+/// is `neighbours`.
 bool aov_uv(const Frame& frame, UvDerivatives kind, const RowWindow& window, int x, int y, Uv& out);
 
 }  // namespace wrinkle::baseline

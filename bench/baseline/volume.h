@@ -15,9 +15,9 @@ public:
     NanoVolume(const NanoVolume&) = delete;
     NanoVolume& operator=(const NanoVolume&) = delete;
 
-    /// The trilinear sampler that keeps its last cell; points in index space. Every thread has a sampler of its own.
+    /// By NanoVDB's trilinear sampler that caches the last cell, one for each thread. Points are in index space.
     void gradients(std::span<const float> (&points)[3], std::span<float> (&gradients)[3]) const;
-    /// The value from the same sampler, too.
+    /// The same, and the values.
     void values_and_gradients(std::span<const float> (&points)[3], std::span<float> value,
                               std::span<float> (&gradients)[3]) const;
 

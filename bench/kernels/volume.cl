@@ -1,4 +1,4 @@
-// Samples of a volume at points of planes.
+// Samples a volume at points that are given as planes.
 #include "wrinkle.clh"
 
 #define WR_SAMPLES(NAME, SAMPLE)                                                                                \

@@ -14,13 +14,13 @@
 namespace wrinkle {
 namespace {
 
-constexpr mode_t default_mode = 0666;  // less the umask
+constexpr mode_t default_mode = 0666;  // the system takes the umask off
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-/// Unique within this machine, so that two writers of one target do not meet.
+/// A name that no other process and no other file of this one has, so that two writers of one target do not collide.
 std::filesystem::path partial_name(const std::filesystem::path& target) {
     static std::atomic<int> count{0};
     return folder_of(target) / fmt::format(".{}.{}-{}.partial", target.filename().string(), ::getpid(), ++count);
@@ -40,7 +40,7 @@ int write_all(int descriptor, std::string_view bytes) {
 
 AtomicFile::AtomicFile(std::filesystem::path target, Temporary temporary) : target_(std::move(target)) {
     std::error_code code;
-    // A link keeps pointing where it points; what it points at is replaced.
+    // A symbolic link stays: the file that it points at is replaced.
     if (std::filesystem::is_symlink(target_, code)) {
         if (auto resolved = std::filesystem::canonical(target_, code); !code) target_ = std::move(resolved);
     }
@@ -67,7 +67,7 @@ bool AtomicFile::open_unnamed(const std::filesystem::path& folder) {
     descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, default_mode);
     if (descriptor_ < 0) return false;
     if (::access(fmt::format("/proc/self/fd/{}", descriptor_).c_str(), F_OK) == 0) return true;
-    ::close(std::exchange(descriptor_, -1));  // without /proc it could never be given a name
+    ::close(std::exchange(descriptor_, -1));  // without /proc the file could never be given a name
     return false;
 }
 
@@ -82,7 +82,7 @@ void AtomicFile::open_named() {
 
 void AtomicFile::copy_permissions() const {
     struct stat old {};
-    // Best effort: a file that belongs to someone else may refuse, and the default mode is fine then.
+    // The new file gets the old one's permissions if the system allows it; if not, the default ones will do.
     if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor_, old.st_mode & 0777) != 0) errno = 0;
 }
 
@@ -96,7 +96,8 @@ std::string AtomicFile::failure(const std::string& reason) const {
 void AtomicFile::link_into_place() {
     const auto source = fmt::format("/proc/self/fd/{}", descriptor_);
     if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, target_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
-    // An existing target cannot be linked over: link beside it, then rename, which replaces it in one step.
+    // A link cannot replace a file that exists. So the new file is linked beside it, then renamed, which replaces the
+    // old one in a single step.
     if (errno != EEXIST || ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, partial_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
         throw Error(failure(std::strerror(errno)));
     }
@@ -118,7 +119,7 @@ void AtomicFile::commit() {
         if (::rename(partial_.c_str(), target_.c_str()) != 0) throw Error(failure(std::strerror(errno)));
         named_ = false;
     }
-    // Delayed write errors of network file systems come with close().
+    // Network file systems may report an error of an earlier write only now.
     if (::close(std::exchange(descriptor_, -1)) != 0) {
         throw Error(fmt::format("cannot write {}: {}", target_.string(), std::strerror(errno)));
     }

@@ -6,7 +6,7 @@
 
 namespace wrinkle {
 
-/// Writes all of it; gives 0, or the errno of what failed.
+/// Writes all of `bytes`. Returns 0, or the errno of the write that failed.
 int write_all(int descriptor, std::string_view bytes);
 
 /// A file that appears under its name only when it is complete.
@@ -28,10 +28,11 @@ public:
     /// Appends. Throws Error when the disk is full.
     void write(std::string_view bytes) const;
 
-    /// Has all of it on disk, still without a name. Throws Error.
+    /// Waits until all that was written is on disk; the file still has no name. Throws Error.
     void sync() const;
 
-    /// Puts the complete file on disk and in place of the old one. Throws Error; then the old file is still there.
+    /// Waits until the file is on disk, then puts it in place of the old one. When it throws Error, the old file is
+    /// still there.
     void commit();
 
     /// "cannot write FILE: REASON; the old file is unchanged".

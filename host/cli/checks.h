@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-/// Checks of option values that say what was found and what was expected, where CLI11's own let NaN pass or print code.
+/// Checks of option values. Unlike CLI11's own they refuse NaN, and their messages say what was found and what is
+/// expected.
 namespace wrinkle::cli {
 
 /// A finite number.

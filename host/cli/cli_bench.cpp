@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The benchmark beside this program: in the build tree bench/, when installed the same folder.
+/// The benchmark's program: in bench/ beside this one in the build tree, or in the same folder when it is installed.
 fs::path bench_program() {
     std::error_code failed;
     const fs::path self = fs::read_symlink("/proc/self/exe", failed);

@@ -105,7 +105,7 @@ void add_eval(CLI::App& app) {
         "  wrinkle eval resolve < in.csv > out.csv\n"
         "  wrinkle eval resolve --in n=normal.npy --in g=g.npy --out normal=bumped.npy\n"
         "  wrinkle eval screen_derivatives --in n=data/gbuffer/small.exr:Normal --in p=p.npy "
-        "--set frame=data/gbuffer/small.camera.json --out dp_dx=d.exr\n"
+        "--set camera=data/gbuffer/small.camera.json --out dp_dx=d.exr\n"
         "                        (p: positions less the camera's, as kernels take them)");
     command->callback([arguments, command] { eval(*arguments, *command); });
 }

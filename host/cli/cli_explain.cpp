@@ -40,7 +40,7 @@ std::string join(const std::vector<std::string>& names) {
     return text.empty() ? "-" : text;
 }
 
-/// A camera that "wrinkle run" refuses is told of; the plan is the same.
+/// Warns of a camera that "wrinkle run" would refuse: it makes no difference to the plan.
 void warn_of_camera(const Scene& scene, int number) {
     const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
     const FrameCamera camera = read_frame_camera(scene.camera, reader, number);
@@ -87,7 +87,7 @@ nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
     return all;
 }
 
-/// What stands behind numbers[i] of the kernel source.
+/// Prints the numbers that the kernels read from their buffer, and the index of the first of each.
 void print_numbers(const Plan& plan, const NumberSource& source) {
     if (!plan.numbers.empty()) fmt::print("\nnumbers of the scene, in the order of the kernels' buffer\n");
     std::size_t first = 0;

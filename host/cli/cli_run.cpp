@@ -29,7 +29,7 @@ struct RunArguments {
     std::optional<Precision> precision;
 };
 
-/// A bar on a terminal; nothing when the output goes to a file.
+/// Draws a progress bar, if one is wanted and stderr is a terminal.
 std::function<void(double)> progress_bar(bool wanted) {
     if (!wanted || isatty(STDERR_FILENO) == 0) return {};
     return [](double share) {
@@ -131,7 +131,8 @@ void run(const RunArguments& arguments) {
     check_frame_pattern(files, "--frames", !options.frames.empty());
     check_frames_exist(files, options.frames);
     if (arguments.threads > 0) {
-        setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);  // before PoCL starts
+        // PoCL reads it when it starts.
+        setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);
         set_image_threads(arguments.threads);
     }
     options.progress = progress_bar(!arguments.quiet && !arguments.json);

@@ -30,7 +30,7 @@ struct ScatterArguments {
     bool replace = false;
 };
 
-/// What decals are placed on: the normals, and what the scene takes its geometry from.
+/// The planes that decals are placed by: normals, and depth or positions, as the scene takes its geometry from.
 std::vector<std::string> planes_of(Geometry geometry) {
     std::vector<std::string> planes{"normal.x", "normal.y", "normal.z"};
     if (geometry != Geometry::position) planes.emplace_back("depth");

@@ -20,7 +20,7 @@ struct TuneArguments {
     bool quiet = false;
 };
 
-/// Old and new rows beside one another.
+/// Prints the old and the new costs of every kind and variant side by side.
 void print_changes(const DeviceCosts& before, const DeviceCosts& after) {
     fmt::print("{} ({}), against {}\n\n", after.device, after.device_class, before.device);
     fmt::print("  {:<22}{:<10}{:>22}{:>28}{:>28}\n", "kind", "variant", "ns/pixel", "99% of errors, degrees",

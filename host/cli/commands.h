@@ -4,7 +4,7 @@
 
 namespace wrinkle::cli {
 
-/// Adds a subcommand to the program; what it does runs from the subcommand's callback.
+/// Each adds a subcommand to the program. CLI11 calls it back, and so runs the command, while it parses the arguments.
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 void add_explain(CLI::App& app);
@@ -12,7 +12,7 @@ void add_eval(CLI::App& app);
 void add_figures(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_scatter(CLI::App& app);
-/// bake-volume and bake-frame
+/// Adds two commands, bake-volume and bake-frame.
 void add_bake(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);

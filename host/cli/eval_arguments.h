@@ -10,20 +10,20 @@
 
 namespace wrinkle::cli {
 
-/// "FILE", "NAME=FILE" or "NAME=FILE.exr:LAYER" of --in and --out.
+/// A value of --in or --out: "FILE", "NAME=FILE" or "NAME=FILE.exr:LAYER".
 struct EvalFile {
-    std::string name;  ///< of a parameter or result; empty: a CSV file with all of them
+    std::string name;  ///< a parameter or result; empty for a CSV file, which holds all of them
     std::filesystem::path file;
     std::string layer;
 };
 EvalFile parse_eval_file(const std::string& text);
 
-/// "1920x1080". Throws CLI::ValidationError.
+/// Reads a size such as "1920x1080". Throws CLI::ValidationError.
 Size parse_size(const std::string& text);
 
-/// The values of "NAME=VALUE" texts, each by its setting's kind. `size`: the frame of a camera, else what its file
-/// says. Throws Error, or CLI::ValidationError where there is no "=",
-/// or a number is none.
+/// Reads "NAME=VALUE" texts; what VALUE may be depends on the kind of the setting NAME. `size` is the frame's size for
+/// camera files; without it, they say it themselves. Throws CLI::ValidationError when a text has no "=" or a malformed
+/// number, and Error for everything else.
 std::map<std::string, SettingValue> parse_settings(const Function& function, const std::vector<std::string>& texts,
                                                    std::optional<Size> size);
 

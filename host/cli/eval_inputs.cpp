@@ -22,8 +22,8 @@ using Planes = std::vector<std::vector<T>>;
 
 template <class T>
 struct Array {
-    std::vector<std::size_t> shape;  ///< without the components
-    Planes<T> planes;                ///< one a component
+    std::vector<std::size_t> shape;  ///< without the dimension of the components
+    Planes<T> planes;                ///< one for each component
 };
 
 template <class T>
@@ -41,13 +41,14 @@ Array<T> read_array(const Parameter& parameter, const EvalFile& from) {
     return {array.shape, std::move(planes)};
 }
 
-/// The channels of `layer` with one component for each column: X Y Z, R G B, U V ...; for a number also one channel.
+/// The channels of a layer, one for each of the components: X Y Z, R G B, U V and so on. When there is only one
+/// component, `layer` may also be the name of a channel.
 std::vector<std::string> channels_of(const GBufferReader& reader, const std::string& layer, std::size_t components) {
     const io::ChannelIndex index(reader.channels());
     const Role any{"", std::vector<std::string>(components)};
     if (components == 1 && std::ranges::find(index.channels, layer) != index.channels.end()) return {layer};
     std::vector<std::string> matched = index.match(any, layer);
-    for (const std::string& whole : index.layers)  // "Normal" for "ViewLayer.Normal"
+    for (const std::string& whole : index.layers)  // "Normal" also means "ViewLayer.Normal"
         if (matched.empty() && whole.ends_with("." + layer)) matched = index.match(any, whole);
     if (matched.empty())
         throw Error(fmt::format("{}: no layer {} of {} channel{}; channels found: {}", reader.path().string(),
@@ -99,7 +100,7 @@ void add_pixel_centres(EvalInputs<T>& inputs, const Function& function) {
 
 [[noreturn]] void fail_for(const Function& function, const std::vector<std::string>& missing, const io::CsvTable& table,
                            const std::string& name) {
-    std::vector<std::string> others;  // what is spelt right is no candidate
+    std::vector<std::string> others;  // columns that no parameter uses: one may be a misspelt name of a missing one
     for (const std::string& there : table.names()) {
         const auto has = [&](const Parameter& p) { return std::ranges::count(p.columns(), there) > 0; };
         if (std::ranges::none_of(function.parameters, has)) others.push_back(there);
@@ -121,7 +122,7 @@ template <class T>
 EvalInputs<T> read_inputs(const Function& function, const std::vector<EvalFile>& files) {
     EvalInputs<T> inputs;
     std::optional<std::filesystem::path> csv;
-    std::string first;  // the file that gave the shape
+    std::string first;  // the file whose shape all others must have
     const auto agree = [&](const std::vector<std::size_t>& shape, const std::string& name) {
         if (first.empty()) first = name, inputs.shape = shape;
         if (shape != inputs.shape)

@@ -17,11 +17,11 @@ namespace wrinkle::cli {
 namespace {
 
 constexpr int standard_output = STDOUT_FILENO;
-constexpr std::size_t block = std::size_t{1} << 20;  // bytes at a time
+constexpr std::size_t block = std::size_t{1} << 20;  // bytes that are collected before they are written
 
 std::string extension_of(const EvalFile& file) { return lower(file.file.extension().string()); }
 
-/// Text on its way to a file, or to standard output.
+/// Collects text and writes it to a file, or to standard output without one.
 class Stream {
 public:
     explicit Stream(const AtomicFile* file) : file_(file) {}
@@ -40,7 +40,7 @@ private:
     std::string text_;
 };
 
-/// The input's columns, results of the same name in their place, then the other results.
+/// Writes the columns of the input, where a result of the same name replaces a column, then the other results.
 template <class T>
 void write_csv(Stream out, const Function& function, const EvalInputs<T>& inputs, const EvalResults<T>& results) {
     const std::vector<std::string> before = inputs.table ? inputs.table->names() : std::vector<std::string>{};
@@ -92,7 +92,7 @@ void write_npy(Stream out, const Result& result, const EvalInputs<T>& inputs, co
     out.flush();
 }
 
-/// Channels of a picture: "normal.X", "normal.Y", "normal.Z"; "value" by its own name.
+/// Writes results as channels: a vector "normal" as normal.X, normal.Y and normal.Z, a number "value" as value.
 template <class T>
 ImageWriter write_exr(const std::filesystem::path& file, const std::vector<Result>& wanted, const EvalInputs<T>& inputs,
                       const EvalResults<T>& results) {

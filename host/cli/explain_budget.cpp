@@ -6,7 +6,8 @@ namespace wrinkle::cli {
 
 namespace {
 
-/// The errors of doubles lie below the rounding of what is written, so they have no sum.
+/// The error of all choices together. In double it is smaller than what is rounded off when files are written, so no
+/// sum is given.
 std::string together(const Budget& budget) {
     return budget.choice().fp64 ? "what a file rounds off" : fmt::format("{:.1e}", budget.report().expected_error);
 }

@@ -10,7 +10,7 @@
 #include "wrinkle/error.h"
 
 int main(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is reported as a full disk is
+    std::signal(SIGXFSZ, SIG_IGN);  // reaching the limit of a file's size then is an error of write(), like a full disk
     CLI::App app{
         "wrinkle evaluates bump mapping after the render: a G-buffer in, new normals and a lit picture out.\n"
         "\n"
@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
         "  wrinkle tune data/scenes/*.toml             what max_error in a scene chooses by, measured here\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
-    app.require_subcommand(0, 1);  // none at all is refused below, after arguments that mean nothing
+    // 0, so that CLI11 complains of unknown arguments first; a missing one is refused below.
+    app.require_subcommand(0, 1);
     app.failure_message(CLI::FailureMessage::help);
     wrinkle::cli::add_run(app);
     wrinkle::cli::add_info(app);

@@ -14,13 +14,16 @@ namespace wrinkle {
 
 namespace {
 
-void expand(const std::string& text, const std::string& name, std::set<std::string>& seen, std::string& out) {
+/// `name`: of the file that the text is from, until a #line 1 names another.
+void expand(const std::string& text, std::string name, std::set<std::string>& seen, std::string& out) {
     std::istringstream lines(text);
     std::string line;
     out += fmt::format("#line 1 \"{}\"\n", name);
     for (int number = 1; std::getline(lines, line); ++number) {
         if (!line.starts_with("#include \"")) {
             out += line + '\n';
+            if (const auto quote = line.find('"'); line.starts_with("#line 1 ") && quote != std::string::npos)
+                name = line.substr(quote + 1, line.rfind('"') - quote - 1), number = 0;
             continue;
         }
         const std::size_t start = line.find('"') + 1;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "device/build_log.h"
 #include "device/kernel_sources.h"
 #include "device/program_cache.h"
 #include "wrinkle/error.h"
@@ -37,7 +38,7 @@ BuiltProgram build_program(const Device& device, const std::string& text, const 
         built.program.build(device.device, flags.c_str());
     } catch (const cl::Error& error) {
         throw Error(fmt::format("kernel build failed ({}) on {}:\n{}", error.err(), device.info.name,
-                                built.program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device)));
+                                build_errors(built.program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device))));
     }
     built.source = BuildSource::compiled;
     return built;

@@ -106,10 +106,10 @@ std::string column_kernel_source(const ColumnKernel& kernel, const std::vector<s
         std::string id = name;
         std::ranges::replace(id, '.', '_');
         text += fmt::format(
-            "    global const WR_SCALAR *in_{0} = in + {1} * stride; real {0} = wr_load_real(in_{0}, at);\n", id, k);
-        if (suffix == ".z") text += fmt::format("    vec3 {0} = wr_v3({0}_x, {0}_y, {0}_z);\n", base);
+            "    global const WR_SCALAR *in_{0} = in + {1} * stride; wr_real {0} = wr_load_real(in_{0}, at);\n", id, k);
+        if (suffix == ".z") text += fmt::format("    wr_vec3 {0} = wr_v3({0}_x, {0}_y, {0}_z);\n", base);
         if (suffix == ".y" && std::ranges::find(columns, base + ".z") == columns.end())
-            text += fmt::format("    vec2 {0} = wr_v2({0}_x, {0}_y);\n", base);
+            text += fmt::format("    wr_vec2 {0} = wr_v2({0}_x, {0}_y);\n", base);
     }
     text += kernel.body + "\n";
     for (std::size_t i = 0; i < kernel.outputs.size(); ++i)

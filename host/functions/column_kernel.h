@@ -19,8 +19,8 @@ struct ColumnKernel {
     std::vector<std::string> outputs;
 };
 
-/// What kernels read beside columns: `constants` and `records` are WR_SCALARs (wr_frame, wr_light; wr_decal ...). Where
-/// the ..._per_row are set, each row has its own that many of them.
+/// What kernels read beside columns: `constants` and `records` are WR_SCALARs (wr_camera, wr_light; wr_decal ...).
+/// Where the ..._per_row are set, each row has its own that many of them.
 struct ColumnData {
     std::vector<double> constants, records;
     std::size_t constants_per_row = 0, records_per_row = 0;

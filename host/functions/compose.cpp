@@ -84,8 +84,8 @@ std::vector<Function> compose_functions() {
                      result(pair("climbing", "per metre", "along / |n . dir|"), {relative})},
          .variants = {{standard,
                        "along = wr_project_to_texture(n, dp_dx, dp_dy, dst_dx, dst_dy, dir);\n"
-                       "real climb = fabs(wr_dot2(n, dir));\n"
-                       "climbing = wr_scale(along, climb > 0 ? 1 / climb : (real)(0));",
+                       "wr_real climb = fabs(wr_dot2(n, dir));\n"
+                       "climbing = wr_scale(along, climb > 0 ? 1 / climb : (wr_real)(0));",
                        {3e-7, 4e-7}}},
          .note = "0 where dp_dx and dp_dy are parallel; climbing is 0 too where dir lies in the surface."},
         {.name = "texture_offset_to_surface",
@@ -108,7 +108,7 @@ std::vector<Function> compose_functions() {
          .results = {result(number("height", "1", "in [0, 1]; the coordinates there are st + range (height - level)"),
                             {absolute})},
          .variants = {{standard,
-                       "real step = wr_parallax_step(heights, range, lod, (int)steps);\n"
+                       "wr_real step = wr_parallax_step(heights, range, lod, (int)steps);\n"
                        "height = wr_parallax_march(heights, st, range, level, lod, step, (int)steps, (int)refine,\n"
                        "                           st.x == st.x);",
                        {1e-5}}},

@@ -91,7 +91,7 @@ Function fractal(const char* name, const char* kind, const char* summary, const 
     f.variants = {{standard,
                    fmt::format("wr_fractal f = {{.noise = {{.basis = WR_PERLIN}}, .kind = {}, .octaves = (int)octaves, "
                                ".gain = gain{}}};\n"
-                               "wr_field v = wr_fractal_at(f, p, lattice, footprint, (mask)(p.x == p.x));\n"
+                               "wr_field v = wr_fractal_at(f, p, lattice, footprint, (wr_mask)(p.x == p.x));\n"
                                "value = v.value, gradient = v.gradient;",
                                kind, ridged),
                    {error, error}}};

@@ -25,7 +25,7 @@ std::vector<Function> projector_functions() {
          .variants = {{standard,
                        "wr_projected at_row = wr_project(decal, p);\n"
                        "q = at_row.q, image = at_row.image, size = at_row.size;\n"
-                       "inside = at_row.inside ? (real)(1) : (real)(0);\n"
+                       "inside = at_row.inside ? (wr_real)(1) : (wr_real)(0);\n"
                        "falloff = wr_projector_falloff(decal, at_row);",
                        {1e-5, 2e-5, 1e-5, 0, 1e-4}}},
          .note = std::string("For points up to 10 half sizes from the eye. ") + near_apex},

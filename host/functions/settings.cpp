@@ -17,7 +17,7 @@ namespace {
 using Kind = Setting::Kind;
 
 constexpr std::size_t kLatticeOctaves = 16;
-constexpr std::size_t kFrameNumbers = sizeof(wr_frame) / sizeof(double),
+constexpr std::size_t kFrameNumbers = sizeof(wr_camera) / sizeof(double),
                       kRowNumbers = sizeof(wr_projector) / sizeof(double);
 
 /// Numbers that a value of this kind has; {0, 0} where it is not made of numbers.
@@ -215,14 +215,14 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
                 value = fmt::format("WR_SCALAR {} = constants[{}]", setting.name, at.constants);
                 break;
             case Kind::vector:
-                value = fmt::format("vec3 {} = wr_v3({})", setting.name, here);
+                value = fmt::format("wr_vec3 {} = wr_v3({})", setting.name, here);
                 break;
             case Kind::lattice:
                 value = fmt::format("constant const WR_SCALAR *{} = {}", setting.name, here);
                 break;
             case Kind::camera:
                 value =
-                    fmt::format("constant const wr_frame *{} = (constant const wr_frame *)({})", setting.name, here);
+                    fmt::format("constant const wr_camera *{} = (constant const wr_camera *)({})", setting.name, here);
                 break;
             case Kind::projector:
                 value = fmt::format("global const wr_projector *{} = (global const wr_projector *)(records + {})",
@@ -245,7 +245,7 @@ ColumnKernel column_kernel(const Function& function, const FunctionVariant& vari
         at.constants += size.constants, at.records += size.records;
     }
     for (const Result& result : function.results) {
-        const char* const types[] = {"real", "vec2", "vec3"};
+        const char* const types[] = {"wr_real", "wr_vec2", "wr_vec3"};
         kernel.body += fmt::format("    {} {};\n", types[static_cast<int>(result.shape)], result.name);
         for (const std::string& column : result.columns()) kernel.outputs.push_back(column);
     }

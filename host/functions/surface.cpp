@@ -10,7 +10,7 @@ std::vector<Function> surface_functions() {
     const Parameter p = vector("p", "metres, world, relative to the eye", "surface point");
     const Parameter x = number("x", "pixels", "pixel centre, to the right"),
                     y = number("y", "pixels", "pixel centre, downwards");
-    const Setting camera{"frame", Setting::Kind::camera, "the camera that p is relative to"};
+    const Setting camera{"camera", Setting::Kind::camera, "the camera that p is relative to"};
     return {
         {.name = "screen_derivatives",
          .file = "surface/screen_derivative.clh",
@@ -20,12 +20,12 @@ std::vector<Function> surface_functions() {
          .settings = {camera},
          .results = {result(dp_dx, {relative, degrees}), result(dp_dy, {relative, degrees})},
          .variants = {{standard,
-                       "vec3 d = wr_ray(frame, x, y);\n"
-                       "wr_screen_derivatives(frame, n, d, wr_along_ray(p, d), x, y, &dp_dx, &dp_dy);",
+                       "wr_vec3 d = wr_ray(camera, x, y);\n"
+                       "wr_screen_derivatives(camera, n, d, wr_along_ray(p, d), x, y, &dp_dx, &dp_dy);",
                        {1e-6, 1e-5, 1e-6, 1e-5}},
                       {exact,
-                       "real r = wr_along_ray(p, wr_ray(frame, x, y));\n"
-                       "wr_screen_derivatives_exact(frame, n, r, x, y, &dp_dx, &dp_dy);",
+                       "wr_real r = wr_along_ray(p, wr_ray(camera, x, y));\n"
+                       "wr_screen_derivatives_exact(camera, n, r, x, y, &dp_dx, &dp_dy);",
                        {1e-6, 1e-5, 1e-6, 1e-5},
                        true}},
          .note = "A pinhole camera. Relative errors grow as 1 / |cos(n, ray)|, directions as 1 / sin(n, image axis x "
@@ -38,10 +38,10 @@ std::vector<Function> surface_functions() {
          .settings = {camera},
          .results = {result(dp_dx, {relative, degrees}), result(dp_dy, {relative, degrees})},
          .variants = {{standard,
-                       "wr_screen_derivatives_general(frame, n, p, x, y, &dp_dx, &dp_dy);",
+                       "wr_screen_derivatives_general(camera, n, p, x, y, &dp_dx, &dp_dy);",
                        {1e-6, 1e-5, 1e-6, 1e-5}},
                       {exact,
-                       "wr_screen_derivatives_general_exact(frame, n, p, x, y, &dp_dx, &dp_dy);",
+                       "wr_screen_derivatives_general_exact(camera, n, p, x, y, &dp_dx, &dp_dy);",
                        {1e-6, 1e-5, 1e-6, 1e-5},
                        true}},
          .note = "Relative errors grow as 1 / |cos(n, ray)|, directions as 1 / sin(n, image axis x ray)."},
@@ -72,9 +72,9 @@ std::vector<Function> surface_functions() {
          .results = {result(pair("step", "1", "change of (u, v)"), {relative}),
                      result(number("usable", "0 or 1", "0 where the tangents are parallel"), {absolute})},
          .variants = {{standard,
-                       "mask any = dp.x == dp.x;\n"
+                       "wr_mask any = dp.x == dp.x;\n"
                        "step = wr_texcoord_step(dp, dp_du, dp_dv, &any);\n"
-                       "usable = any ? (real)(1) : (real)(0);",
+                       "usable = any ? (wr_real)(1) : (wr_real)(0);",
                        {1e-6, 0}}},
          .note = "Skewed tangents take their share of the digits, 1 / sin^2 of their angle. Parallel ones give 0."},
         {.name = "texture_derivatives",
@@ -101,10 +101,10 @@ std::vector<Function> surface_functions() {
          .parameters = {base_normal, dp_dx, dp_dy, dst_dx, dst_dy},
          .results = {result(direction("T", "tangent"), {degrees}), result(direction("B", "bitangent"), {degrees})},
          .variants = {{standard,
-                       "wr_frame_tb f = wr_tangent_frame(n, dp_dx, dp_dy, dst_dx, dst_dy);\nT = f.t, B = f.b;",
+                       "wr_tangents f = wr_tangent_frame(n, dp_dx, dp_dy, dst_dx, dst_dy);\nT = f.t, B = f.b;",
                        {1e-5, 1e-5}},
                       {exact,
-                       "wr_frame_tb f = wr_tangent_frame_exact(n, dp_dx, dp_dy, dst_dx, dst_dy);\nT = f.t, B = f.b;",
+                       "wr_tangents f = wr_tangent_frame_exact(n, dp_dx, dp_dy, dst_dx, dst_dy);\nT = f.t, B = f.b;",
                        {1e-5, 1e-5},
                        true}},
          .note = "Errors grow as 1 / cos of the angle between the tangent plane and what dp_dx and dp_dy make of the "
@@ -116,7 +116,7 @@ std::vector<Function> surface_functions() {
          .parameters = {pair("slope", "1", "dh/du, dh/dv in the frame"), vector("T", "world", "tangent"),
                         vector("B", "world", "bitangent")},
          .results = {result(surface_gradient, {relative})},
-         .variants = {{standard, "wr_frame_tb f = {T, B};\ng = wr_surface_gradient_from_tbn(slope, f);", {2e-7}}}},
+         .variants = {{standard, "wr_tangents f = {T, B};\ng = wr_surface_gradient_from_tbn(slope, f);", {2e-7}}}},
         {.name = "surface_gradient_scale_dependent",
          .file = "surface/surface_gradient.clh",
          .summary = "Surface gradient of a height in metres over texture coordinates",

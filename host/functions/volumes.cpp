@@ -62,7 +62,7 @@ std::vector<Function> volume_functions() {
          .parameters = {vector("eye", "1", "start of the ray"), direction("ray", "its direction")},
          .settings = {{"radius", Setting::Kind::number, "of the ball around the origin that is searched", {6}}},
          .results = {result(number("distance", "1", "0 where the ray meets nothing"), {relative})},
-         .variants = {{standard, "distance = wr_golden_march(eye, ray, (real)(radius));", {5e-7}}},
+         .variants = {{standard, "distance = wr_golden_march(eye, ray, (wr_real)(radius));", {5e-7}}},
          .fp64_error = 1e-6,
          .note = "Over the cosine of view."},
     };

@@ -15,8 +15,8 @@
 namespace wrinkle::io {
 namespace {
 
-constexpr int zip_block = 16;  // rows; reads are widened to whole blocks, which ZIP decompresses anyway
-constexpr int overlap = 2;     // rows that bands share where neighbours are needed; only speed depends on it
+constexpr int zip_block = 16;  // rows; reads cover whole blocks, since ZIP decompresses whole blocks anyway
+constexpr int overlap = 2;     // rows that two bands may share, as neighbours of each other; matters for speed only
 constexpr std::size_t scratch_floats = 16u << 20;  // 64 MiB: enough blocks for every core, small beside a frame
 
 int round_down(int value, int step) { return value - value % step; }
@@ -25,7 +25,7 @@ int block_rows(const Part& part) { return part.tile_height > 0 ? part.tile_heigh
 
 }  // namespace
 
-/// Channels [begin, end) of one part, read as one type.
+/// Channels [begin, end) of one part, which are read together, as numbers of one type.
 struct BandReader::Range {
     int part = 0, begin = 0, end = 0;
     bool whole_numbers = false;
@@ -74,7 +74,7 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
     const std::size_t row_floats = range.channels() * static_cast<std::size_t>(part.width);
     const int step = block_rows(part);
     const int rows = std::max(round_down(static_cast<int>(scratch_floats / row_floats), step), step);
-    // Data rows are counted from the data window's top, where blocks and tiles begin.
+    // From here on rows are counted from the top of the data window, where the first block or tile begins.
     for (int y = top - part.y; y < bottom - part.y;) {
         const int y_end = std::min(round_down(y, step) + rows, bottom - part.y);
         const int first = fetch(range, y, y_end);
@@ -87,7 +87,7 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
                     const float* from_channel = in + (channel.place.index - range.begin);
                     float* out = channel.out + frame_row * size_.width;
                     for (int x = left; x < right; ++x, from_channel += range.channels()) {
-                        // Read as uint32_t the four bytes are the number itself.
+                        // Whole numbers were read as uint32_t into the same four bytes.
                         out[x] = range.whole_numbers ? static_cast<float>(std::bit_cast<std::uint32_t>(*from_channel))
                                                      : *from_channel;
                     }
@@ -114,7 +114,7 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
         !read_interleaved(*input_, range, read_from, end, row(read_from)))
         fail(range, read_from, end);
     const int keep = std::max(first, round_down(std::max(y_end - overlap, 0), step));
-    if (row_floats * static_cast<std::size_t>(last - keep) > scratch_floats)  // tall tiles: rather read them again
+    if (row_floats * static_cast<std::size_t>(last - keep) > scratch_floats)  // tall tiles are read again instead
         held = {};
     else
         held = {range.wanted_indices(), keep, last, {row(keep), row(last)}};
@@ -143,7 +143,7 @@ void BandReader::fail(const Range& range, int y_begin, int y_end) {
     const auto why = reason(input_->geterror());
     const auto& part = parts_[static_cast<std::size_t>(range.part)];
     const int step = part.tile_height > 0 ? part.tile_height : 1;
-    const auto again = open_image(file_);  // after a failure the first stream stays at its end
+    const auto again = open_image(file_);  // a stream that failed reads nothing more
     int bad = y_begin;
     while (bad + step < y_end && read_interleaved(*again, range, bad, bad + step, scratch_.data())) bad += step;
     again->geterror();

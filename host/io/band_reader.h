@@ -14,15 +14,15 @@
 
 namespace wrinkle::io {
 
-/// A channel and where its rows go.
+/// A channel to read, and where to.
 struct WantedChannel {
     ChannelPlace place;
     float* out;  ///< rows of the frame's width
 };
 
-/// Reads bands of rows of some channels: one read per part over the narrowest range of channels, then apart into
-/// planes. A ZIP block holds all channels of its rows, and decompressing it is most of the work: the last blocks are
-/// kept for a band that begins among them.
+/// Reads some channels of a frame, a band of rows at a time. Each part of the file is read once, from the first to the
+/// last of the wanted channels, and then separated into planes. Decompressing ZIP blocks is most of the work. A block
+/// may belong to two bands, so the last ones of a band are kept for the next.
 class BandReader {
 public:
     BandReader(std::unique_ptr<OIIO::ImageInput> input, std::filesystem::path file, Size size, std::vector<Part> parts);
@@ -33,17 +33,18 @@ public:
 private:
     struct Range;
 
-    /// The last blocks of a range, as they lay in the scratch.
+    /// The last blocks of a band, for the next one; a copy of a part of the scratch memory.
     struct Held {
-        std::vector<int> channels;  ///< others of the range may be missing
-        int first = 0, last = 0;    ///< data rows
+        std::vector<int> channels;  ///< only these were read; other channels of the range may hold anything
+        int first = 0, last = 0;    ///< rows [first, last) of the data window
         std::vector<float> rows;
     };
 
     void read_range(const Range& range, std::uint32_t row_begin, std::uint32_t row_end);
-    /// Brings data rows [y, y_end) and the rest of their blocks into the scratch; returns the row that it begins with.
+    /// Brings rows [y, y_end) of the data window into the scratch memory, with the rest of their blocks. Returns the
+    /// row that the scratch memory begins with.
     int fetch(const Range& range, int y, int y_end);
-    /// False where they have to be read the slower way.
+    /// False when the rows have to be read by OpenImageIO, which is slower.
     bool read_zip_blocks(const Range& range, int y_begin, int y_end, float* out);
     bool read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, float* out);
     [[noreturn]] void fail(const Range& range, int y_begin, int y_end);
@@ -53,8 +54,8 @@ private:
     ZipBlocks zip_blocks_;
     Size size_;
     std::vector<Part> parts_;
-    std::vector<float> scratch_;                 ///< interleaved rows; kept, since fresh pages cost as much as the copy
-    std::map<std::pair<int, bool>, Held> held_;  ///< by part and whether numbers are whole
+    std::vector<float> scratch_;  ///< interleaved rows; reused, as touching fresh memory costs as much as the copy
+    std::map<std::pair<int, bool>, Held> held_;  ///< by number of the part, and whether its numbers are whole ones
 };
 
 }  // namespace wrinkle::io

@@ -18,14 +18,15 @@ struct FrameCamera {
     std::optional<DepthKind> depth;    ///< what the depth plane holds, where position and depth both exist
 };
 
-/// Reads the camera of frame number `frame` from wherever `source` says, without judging the residual.
+/// Reads the camera of frame number `frame` from wherever `source` says. Measures the residual, and leaves it to
+/// check_residual() to refuse a large one.
 /// Throws Error when the file is missing or malformed, is for another aspect, or its matrices are no camera.
 FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& reader, int frame = 0);
 
 /// Throws Error when the positions reproject farther than `max_residual` pixels (their median).
 void check_residual(const FrameCamera& camera, double max_residual, const GBufferReader& reader);
 
-/// Both: a camera is always checked.
+/// Reads a camera and refuses one that does not fit the frame: read_frame_camera(), then check_residual().
 Camera read_camera(const CameraSource& source, const GBufferReader& reader, int frame = 0);
 
 }  // namespace wrinkle

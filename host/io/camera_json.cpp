@@ -61,7 +61,8 @@ Mat4 matrix(const json& camera, const char* key, const std::filesystem::path& fi
     return result;
 }
 
-/// Both or none; they need not be whole, since a camera fits every frame of its aspect.
+/// Width and height, when the file has them; one alone is an error. They need not be whole numbers, since a camera fits
+/// every frame of the same aspect.
 std::optional<std::array<double, 2>> sides(const json& camera, const std::filesystem::path& file) {
     if (!camera.contains("width") && !camera.contains("height")) return std::nullopt;
     const auto side = [&](const char* key) {
@@ -77,7 +78,7 @@ void check_aspect(const json& camera, Size frame, const std::filesystem::path& f
     const auto found = sides(camera, file);
     if (!found) return;
     const auto [width, height] = *found;
-    // Half a pixel is what rounding a smaller frame's sides can do.
+    // A frame's sides are rounded to whole pixels: half a pixel of each is no other aspect.
     if (std::abs(width / height * frame.height - frame.width) <= 0.5 + 0.5 * frame.width / frame.height) return;
     throw Error(fmt::format("{}: the camera is for {}x{} and the frame is {}x{}: another aspect", file.string(), width,
                             height, frame.width, frame.height));
@@ -86,7 +87,7 @@ void check_aspect(const json& camera, Size frame, const std::filesystem::path& f
 }  // namespace
 
 bool settle_last_row(Mat4& view) {
-    constexpr double rounding = 1e-6;  // products of float matrices
+    constexpr double rounding = 1e-6;  // as products of float matrices have it
     const std::array<double, 4> wanted{0, 0, 0, 1};
     for (std::size_t j = 0; j < 4; ++j)
         if (!(std::abs(view[3][j] - wanted[j]) <= rounding)) return false;
@@ -95,7 +96,7 @@ bool settle_last_row(Mat4& view) {
 }
 
 Camera checked_camera(Camera camera, const std::string& name) {
-    constexpr double rigid = 1e-3;  // float matrices printed with few digits
+    constexpr double rigid = 1e-3;  // allows for float matrices that were printed with few digits
     for (const auto* m : {&camera.view, &camera.proj})
         for (const auto& row : *m)
             for (const double value : row) {

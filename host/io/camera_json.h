@@ -8,18 +8,19 @@
 
 namespace wrinkle::io {
 
-/// Reads {"width", "height", "view", "proj"}; the matrices are rows and act on column vectors. `frame_size`: the frame
-/// it must fit in aspect.
+/// Reads {"width", "height", "view", "proj"}. Matrices are lists of rows and act on column vectors. Throws Error when
+/// the file is malformed, when it is no camera, or when its aspect is not that of `frame_size`.
 Camera read_camera_json(const std::filesystem::path& file, Size frame_size);
 
-/// "width" and "height", where they are there.
+/// "width" and "height" of a camera file, if it has them.
 std::optional<Size> camera_json_size(const std::filesystem::path& file);
 
-/// Makes the last row of a view matrix 0 0 0 1 where it is that but for rounding; else false.
+/// Sets the last row of a view matrix to 0 0 0 1 when it differs only by rounding. Returns false when it differs by
+/// more.
 bool settle_last_row(Mat4& view);
 
-/// The camera, the last row of its view settled. Throws Error, beginning with `name`, unless the entries are finite,
-/// view is rigid and proj can be inverted.
+/// The camera, with the last row of its view set to exactly 0 0 0 1. Throws Error unless its numbers are finite, view
+/// is rigid and proj can be inverted; the message begins with `name`.
 Camera checked_camera(Camera camera, const std::string& name);
 
 }  // namespace wrinkle::io

@@ -40,14 +40,14 @@ CryptomatteLayers find_cryptomattes(const ChannelIndex& index) {
             !std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c); }) || digits.empty())
             continue;
         const auto stem = layer.substr(0, layer.size() - 2);
-        const Role rgba{"beauty", {"", "", ""}};  // any three-component role finds R, G and B
+        const Role rgba{"beauty", {"", "", ""}};  // stands in for Cryptomatte: a role of three planes finds R, G and B
         const auto rgb = index.match(rgba, layer);
         const auto& all = index.components.at(layer);
         const auto alpha = all.contains("a") ? all.find("a") : all.find("alpha");
         if (rgb.size() != 3 || alpha == all.end()) continue;
         auto& ranks = result[stem];
         const auto first = 2 * static_cast<std::size_t>(std::stoi(digits));
-        if (first != ranks.size()) continue;  // a gap: ranks beyond it would be counted wrongly
+        if (first != ranks.size()) continue;  // a rank is missing before this one, so its number would be wrong
         ranks.push_back({rgb[0], rgb[1]});
         ranks.push_back({rgb[2], alpha->second});
     }

@@ -14,18 +14,19 @@ struct ChannelIndex {
     explicit ChannelIndex(std::span<const std::string> names);
 
     std::vector<std::string> channels;
-    std::vector<std::string> layers;                                       ///< in the file's order; "" for plain names
+    std::vector<std::string> layers;                                       ///< in the file's order; "" if it has none
     std::map<std::string, std::map<std::string, std::string>> components;  ///< layer, lower-case component -> channel
 
-    /// The channels of `layer` that make up the role, in the order of its planes; empty when some are missing.
+    /// The channels of `layer` that make up a role, in the order of the role's planes. Empty when one is missing.
     std::vector<std::string> match(const Role& role, const std::string& layer) const;
 };
 
 struct CryptomatteRank {
-    std::string id, coverage;  ///< channels
+    std::string id, coverage;  ///< names of channels
 };
 
-/// Ranked layers CryptoObject00, 01, ... by their common stem: pairs (R, G), (B, A) in the order of rank.
+/// Cryptomattes by the stem of their layers' names. Each layer (CryptoObject00, CryptoObject01 ...) holds two ranks, as
+/// (R, G) and (B, A).
 using CryptomatteLayers = std::map<std::string, std::vector<CryptomatteRank>>;
 CryptomatteLayers find_cryptomattes(const ChannelIndex& index);
 

@@ -11,7 +11,7 @@ ChannelName split_channel(std::string_view channel) {
 }
 
 std::string describe_channels(std::span<const std::string> channels) {
-    std::vector<ChannelName> layers;  // in the file's order; components of a layer put together
+    std::vector<ChannelName> layers;  // in the file's order, with the components of a layer joined
     for (const auto& channel : channels) {
         auto name = split_channel(channel);
         const bool groups = !name.layer.empty() && name.component.size() == 1;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-/// Names of channels: their layers, and lists of them in messages.
+/// Names of channels: taking them apart, and listing them in messages.
 namespace wrinkle::io {
 
 /// A channel's layer and component: "ViewLayer.Normal.X" is {"ViewLayer.Normal", "X"}, "Z" is {"", "Z"}.

@@ -25,8 +25,8 @@ bool usable(double scale) { return std::isnormal(scale) && scale > 0; }
 }  // namespace
 
 std::optional<Camera> camera_of_clip(const Mat4& clip) {
-    constexpr double near_plane = 0.01;      // any: clip depth is never used
-    constexpr double parallel_share = 1e-9;  // of the constant in the w row: no perspective
+    constexpr double near_plane = 0.01;      // any would do, since clip depth is never used
+    constexpr double parallel_share = 1e-9;  // w varies by less than this share of its constant: a parallel projection
     Row x = clip[0], y = clip[1], w = clip[3];
     const double slope = std::sqrt(dot3(w, w));
     const bool perspective = slope > parallel_share * std::abs(w[3]);
@@ -34,7 +34,8 @@ std::optional<Camera> camera_of_clip(const Mat4& clip) {
     if (!usable(scale)) return std::nullopt;
     x = divide(x, scale), y = divide(y, scale), w = divide(w, scale);
 
-    // x = fx (right, tx) + cx (forward, d), so the parts come off one after another; the fourth component follows.
+    // The row x is fx times the axis to the right plus cx times the forward axis. The axes are perpendicular unit
+    // vectors, so projections onto them give the factors, one after the other. The fourth components are treated alike.
     const double cx = perspective ? dot3(x, w) : 0, cy = perspective ? dot3(y, w) : 0;
     if (perspective) x = subtract(x, cx, w), y = subtract(y, cy, w);
     const double fx = std::sqrt(dot3(x, x));

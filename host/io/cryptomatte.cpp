@@ -37,7 +37,8 @@ std::optional<std::uint32_t> parse_hex(std::string_view digits) {
     return static_cast<std::uint32_t>(std::stoul(std::string(digits), nullptr, 16));
 }
 
-/// The header's "cryptomatte/KEY/" that describes `layer`.
+/// Which "cryptomatte/KEY/" of the header describes `layer`. Names that differ by a prefix count as the same, and a
+/// header with a single cryptomatte describes that one.
 std::string find_key(const Metadata& header, const std::string& layer) {
     std::string similar, only;
     int count = 0;
@@ -70,7 +71,7 @@ CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::stri
     if (const auto beside = header.text(key + "manif_file"); text.empty() && beside && !beside->empty()) {
         const auto path = file.parent_path() / *beside;
         std::ifstream stream(path);
-        if (!stream) return;  // names can still be hashed
+        if (!stream) return;  // without a manifest, names are hashed
         text.assign(std::istreambuf_iterator<char>(stream), {});
         origin = path.string();
     }

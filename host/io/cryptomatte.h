@@ -11,22 +11,22 @@
 
 namespace wrinkle {
 
-/// Cryptomatte's id of a name: MurmurHash3_32, its exponent bit flipped where the float would be zero, denormal, Inf
-/// or NaN. The bits of the id channels.
+/// Cryptomatte's id of a name, as the id channels hold its bits: MurmurHash3_32, with one bit of the exponent flipped
+/// where the float would be zero, denormal, Inf or NaN.
 std::uint32_t cryptomatte_hash(std::string_view name);
 
 /// Names and ids of one cryptomatte, as its header lists them. Empty when the header has no manifest.
 class CryptomatteManifest {
 public:
     CryptomatteManifest() = default;
-    /// The manifest of `layer` ("ViewLayer.CryptoObject") in the header of `file`, embedded or in a file beside it. One
-    /// that is damaged is told when a name is asked for.
+    /// The manifest of `layer` ("ViewLayer.CryptoObject") that the header of `file` holds, or names as a file beside
+    /// it. A damaged one does no harm until id() is asked for a name.
     CryptomatteManifest(const Metadata& header, const std::string& layer, const std::filesystem::path& file);
 
     std::vector<std::string> names() const;
 
-    /// Id bits of an object's name, or of "#" and 8 hex digits. Throws Error when there is a manifest that lacks the
-    /// name, or is damaged; without a manifest the name is hashed.
+    /// The id's bits, of an object's name or of "#" and 8 hex digits. Without a manifest, the name is hashed. Throws
+    /// Error when the manifest is damaged or has no such name.
     std::uint32_t id(std::string_view name) const;
 
 private:

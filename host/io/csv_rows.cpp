@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// Takes what libcsv finds. Its callbacks come through C: they keep what is thrown.
+/// Collects the cells that libcsv finds, and hands on each row. No exception may pass through libcsv, which is C: the
+/// callbacks keep it, and it is thrown again when libcsv has returned.
 class Parser {
 public:
     Parser(const CsvRowTaker& take, const std::string& name) : take_(take), name_(name) {
@@ -93,13 +94,14 @@ private:
     csv_parser parser_;
     std::exception_ptr thrown_;
     std::string text_;               ///< the cells of this row, one after another
-    std::vector<std::size_t> ends_;  ///< in text_
+    std::vector<std::size_t> ends_;  ///< where each cell ends in text_
     std::vector<std::string_view> cells_;
-    std::uint32_t line_ = 1, inner_lines_ = 0;  ///< where the row begins; line ends within its cells
-    int last_end_ = 0;                          ///< the line end just read, of '\r' '\n'
+    std::uint32_t line_ = 1, inner_lines_ = 0;  ///< the line that the row begins in; line breaks within its cells
+    int last_end_ = 0;                          ///< the line end just read, '\r' or '\n'; 0 after a cell
 };
 
-/// The first row as it stands in the file shows what spreadsheets of other countries put between columns.
+/// Spreadsheets in some countries separate columns by semicolons. Throws Error when the header row has those, or tabs,
+/// and no comma.
 void check_separator(std::string_view header, const std::string& name, std::uint32_t line) {
     if (header.find(',') != std::string_view::npos) return;
     const char* found = nullptr;
@@ -119,7 +121,7 @@ void read_csv_rows(std::string_view text, const std::string& name, CsvComments c
     if (text.find('\0') != std::string_view::npos)
         throw Error(fmt::format("{}: no CSV in ASCII or UTF-8: it holds zero bytes", name));
     Parser parser(take, name);
-    bool header = true, quoted = false;  // whether a cell goes on in the next line
+    bool header = true, quoted = false;  // quoted: the line begins within a quoted cell
     while (!text.empty()) {
         const std::size_t end = std::min(text.find_first_of("\r\n"), text.size() - 1);
         const std::string_view line = text.substr(0, end + 1);

@@ -19,14 +19,14 @@ namespace wrinkle::io {
 
 namespace {
 
-/// Short and on one line, whatever the cell held.
+/// A cell as messages show it: on one line, and not too long.
 std::string shown(std::string_view cell) {
     std::string out;
     for (const char c : cell.substr(0, 40)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
     return out + (cell.size() > 40 ? "..." : "");
 }
 
-/// False where `text` is no number, or one that T is too small for.
+/// False when `text` is no number, or one beyond the range of T.
 template <class T>
 bool parse(std::string_view text, T& value) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -34,7 +34,7 @@ bool parse(std::string_view text, T& value) {
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     if (stop != end || text.empty()) return false;
     if (error != std::errc::result_out_of_range) return error == std::errc();
-    const std::string copy(text);  // from_chars says "out of range" for the smallest numbers too
+    const std::string copy(text);  // from_chars also refuses numbers that are too small; strtod rounds them to 0
     if constexpr (std::is_same_v<T, float>)
         value = std::strtof(copy.c_str(), nullptr);
     else

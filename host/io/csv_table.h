@@ -8,7 +8,7 @@
 
 namespace wrinkle::io {
 
-/// The cells of a CSV file as text, in the dialects that csv_rows.h knows. The first row names the columns.
+/// The cells of a CSV file as text, read by read_csv_rows(). The first row names the columns.
 class CsvTable {
 public:
     /// Throws Error when the text is empty, a row has more or fewer cells than the header, or read_csv_rows does.
@@ -19,16 +19,16 @@ public:
     std::size_t rows() const { return lines_.size(); }
     std::string_view cell(std::size_t row, std::size_t column) const;
 
-    /// The numbers of the column `name`, each rounded once. T is float or double. Throws Error naming row, line and
-    /// column of a cell that holds no number, or when there is no such column or two of it.
+    /// The numbers of a column. T is float or double; text is rounded to T directly. Throws Error when no column or two
+    /// columns have this name, and for a cell without a number, whose row, line and column it tells.
     template <class T>
     std::vector<T> numbers(const std::string& name) const;
 
 private:
-    std::string name_, text_;  ///< all cells, one after another
+    std::string name_, text_;  ///< text_: all cells, one after another
     std::vector<std::string> names_;
-    std::vector<std::size_t> ends_;     ///< in text_, of each cell
-    std::vector<std::uint32_t> lines_;  ///< of each row
+    std::vector<std::size_t> ends_;     ///< where each cell ends in text_
+    std::vector<std::uint32_t> lines_;  ///< the line that each row begins in
 };
 
 /// All of a file, or of standard input for "-". Throws Error.

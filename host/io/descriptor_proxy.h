@@ -4,9 +4,9 @@
 
 namespace wrinkle::io {
 
-/// Lets OpenImageIO write to an open file descriptor, and remembers why the first write failed: "No space left on
-/// device" is lost on the way through the image libraries. What comes after a failure is dropped, so that no library
-/// prints a message of its own; ask failure(). The descriptor stays the caller's.
+/// Lets OpenImageIO write to an open file descriptor, which the caller goes on to own. Remembers why a write failed
+/// ("No space left on device"), which the image libraries do not pass on: ask failure(). After a failure all further
+/// writes are dropped and look successful, so that no library prints a message of its own.
 class DescriptorProxy : public OIIO::Filesystem::IOProxy {
 public:
     explicit DescriptorProxy(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
@@ -17,7 +17,7 @@ public:
     std::size_t size() const override;
 
     int failure() const { return failure_; }  ///< errno of the first write that failed, or 0
-    void discard() { discarding_ = true; }    ///< drops all that is still written
+    void discard() { discarding_ = true; }    ///< drops everything that is written from now on
 
 private:
     int descriptor_;

@@ -78,11 +78,11 @@ struct GBufferReader::Impl {
 };
 
 bool GBufferReader::Impl::sample_packed_normals() const {
-    // Only where a writer is known to pack, or unknown: for the others [0,1] would be a coincidence.
+    // Only Unreal is known to pack normals. Of other known writers, normals within [0,1] are a coincidence.
     if (!roles.has_role("normal") || (roles.writer != Writer::unreal && roles.writer != Writer::plain)) return false;
     const std::size_t width = image.size.width;
     std::vector<float> planes[3];
-    for (const std::uint32_t tenth : {5u, 3u, 7u, 1u, 9u}) {  // mostly one will do, and each costs a block of rows
+    for (const std::uint32_t tenth : {5u, 3u, 7u, 1u, 9u}) {  // the first row nearly always decides; each costs a block
         const auto row = tenth * image.size.height / 10;
         std::vector<io::WantedChannel> wanted;
         std::span<const float> read[3];
@@ -93,7 +93,7 @@ bool GBufferReader::Impl::sample_packed_normals() const {
         }
         try {
             reader->read(row, row + 1, wanted);
-        } catch (const Error&) { return false; }  // who reads all rows says which is the first that cannot be read
+        } catch (const Error&) { return false; }  // left to the reading of all rows, which tells the first damaged one
         if (io::cannot_be_packed(read[0], read[1], read[2])) return false;
     }
     return io::looks_packed(planes[0], planes[1], planes[2]);

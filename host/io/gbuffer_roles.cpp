@@ -23,7 +23,8 @@ std::pair<std::string, std::string> split_prefix(const std::string& layer) {
                                     : std::pair{layer.substr(0, dot), layer.substr(dot + 1)};
 }
 
-/// Channels of the role within view layer `prefix` or outside any, best spelling first.
+/// The channels of a role, in the view layer `prefix` or in none. Of several spellings the first one listed in
+/// writer_names.cpp wins.
 std::vector<std::string> find_role(const ChannelIndex& index, const Role& role, const std::string& prefix) {
     const auto& spellings = *std::ranges::find(io::role_names(), role.name, &io::RoleNames::role);
     for (const auto spelling : spellings.layers) {
@@ -34,7 +35,7 @@ std::vector<std::string> find_role(const ChannelIndex& index, const Role& role, 
                 if (base.starts_with("__") && (spelling == "p" || spelling == "nn")) continue;  // camera space
                 if (auto found = index.match(role, layer); !found.empty()) return found;
             }
-            const auto top = index.components.find(wanted);  // "Z", "roughness": no component of its own
+            const auto top = index.components.find(wanted);  // single channels without a component: "Z", "roughness"
             if (role.planes.size() != 1 || top == index.components.end()) continue;
             for (const auto& [component, channel] : top->second) {
                 if (io::plain_layer_name(component) == spelling) return {channel};
@@ -47,7 +48,7 @@ std::vector<std::string> find_role(const ChannelIndex& index, const Role& role, 
         if (top == index.components.end() || !top->second.contains(u) || !top->second.contains(v)) return {};
         return {top->second.at(u), top->second.at(v)};
     };
-    if (role.name == "tangent_sign") {  // often the tangent's fourth component; an alpha would be coverage
+    if (role.name == "tangent_sign") {  // often the tangent's fourth component W, but not its A, which is coverage
         const auto tangent = std::ranges::find(gbuffer_roles(), "tangent", &Role::name);
         const auto channels = find_role(index, *tangent, prefix);
         if (channels.empty()) return {};
@@ -64,7 +65,7 @@ void assign(RoleMap& map, const Role& role, const std::vector<std::string>& chan
     for (std::size_t i = 0; i < channels.size(); ++i) map.channel_of[role.planes[i]] = channels[i];
 }
 
-/// The view layer with most roles; the first of equals.
+/// The view layer in which most roles are found; of several, the first.
 std::string choose_prefix(const ChannelIndex& index) {
     std::string best;
     std::size_t most = 0;
@@ -81,7 +82,8 @@ std::string choose_prefix(const ChannelIndex& index) {
     return best;
 }
 
-/// Mitsuba's users name the layers; only the components are Mitsuba's. What is unmistakable is taken.
+/// In Mitsuba the user names the layers, and only the components' names are Mitsuba's own. A role is taken when exactly
+/// one layer has its components.
 void fill_mitsuba(RoleMap& map, const ChannelIndex& index) {
     std::set<std::string> taken;
     for (const auto& [plane, channel] : map.channel_of) taken.insert(io::split_channel(channel).layer);
@@ -152,7 +154,7 @@ RoleMap detect_roles(std::span<const std::string> channels, const std::map<std::
     if (map.writer == Writer::mitsuba) fill_mitsuba(map, index);
     assign_cryptomatte(map, index, prefix);
     io::apply_overrides(map, index, overrides);
-    // Facts follow from the channels in use, so after the overrides.
+    // What kind of depth and normals there are depends on the channels in use, so it is settled after the overrides.
     if (const auto depth = map.channel_of.find("depth"); depth != map.channel_of.end()) {
         const bool ray = map.writer == Writer::mitsuba && io::split_channel(depth->second).component == "T";
         map.depth = ray ? DepthKind::ray : DepthKind::planar;

@@ -12,7 +12,7 @@
 
 namespace wrinkle {
 
-/// Who wrote a G-buffer, as far as its channel names tell; `plain` for names no known writer claims.
+/// The program that wrote a G-buffer, as far as the names of its channels tell; `plain` when no known one uses them.
 enum class Writer { plain, blender, mitsuba, pbrt, renderman, arnold, unreal, vray };
 
 std::string_view writer_name(Writer writer);  ///< "Blender Cycles", "pbrt-v4", ... "plain names"
@@ -24,7 +24,7 @@ struct RoleMap {
     DepthKind depth = DepthKind::planar;                         ///< planar or ray, never automatic
     bool screen_space_normals = false;  ///< V-Ray's bump_normals: camera space, x right, y up, z towards the viewer
     std::string cryptomatte_layer;      ///< "ViewLayer.CryptoObject", without the rank digits; empty without any
-    int cryptomatte_ranks = 0;          ///< planes crypto.id0, crypto.coverage0 ... of this many ranks
+    int cryptomatte_ranks = 0;          ///< number of ranks, each with planes crypto.idN and crypto.coverageN
 
     bool has_plane(std::string_view plane) const { return channel_of.contains(plane); }
     bool has_role(std::string_view role) const;  ///< all of its planes; "cryptomatte": at least one rank
@@ -32,12 +32,12 @@ struct RoleMap {
 
 /// Finds the planes of gbuffer_roles() among a file's channels.
 ///
-/// Shading normals are preferred to geometric ones (Mitsuba sh_normal to geo_normal, pbrt Ns to N): bump mapping
-/// perturbs the interpolated normal, and a faceted base shows as facets in the result. In a file of several view
-/// layers the one with most roles is used; layers are never mixed.
+/// Shading normals are preferred to geometric ones (Mitsuba sh_normal to geo_normal, pbrt Ns to N), since bumps on a
+/// faceted normal show its facets. Of several view layers the one with most roles is used, for all roles: layers are
+/// mixed only where `overrides` say so.
 ///
-/// `overrides`: role, or single plane, to a layer ("ViewLayer.Position") or channel ("depth_raw"); "none" leaves the
-/// role out. Throws Error when an override matches nothing.
+/// `overrides`: by role ("position") a layer ("ViewLayer.Position"), or a channel if the role has one plane; by single
+/// plane ("uv.u") a channel; "none" leaves a role out. Throws Error when an override matches nothing.
 RoleMap detect_roles(std::span<const std::string> channels, const std::map<std::string, std::string>& overrides = {});
 
 }  // namespace wrinkle

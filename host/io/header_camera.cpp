@@ -25,14 +25,15 @@ std::optional<Mat4> inverse_or_nothing(const Mat4& m) {
     } catch (const Error&) { return std::nullopt; }
 }
 
-/// Header matrices act on row vectors; ours on columns. Some writers forget.
+/// A matrix that acts on column vectors, as all of ours do. Those of EXR headers act on row vectors, but some writers
+/// store the transpose.
 Mat4 on_columns(const Mat4& m, bool row_vectors) { return row_vectors ? transposed(m) : m; }
 
-/// Rows of world-to-NDC to rows of world-to-clip.
+/// A convention for normalised device coordinates.
 struct Window {
-    bool unit;  ///< [0,1]; else [-1,1]
+    bool unit;  ///< they span [0,1]; else [-1,1]
     bool y_down;
-    bool aspect;  ///< the shorter side spans it, the longer one more
+    bool aspect;  ///< only the shorter side of the picture spans that; the longer one spans more
 };
 
 Mat4 to_clip(Mat4 ndc, Window window, double aspect) {
@@ -45,7 +46,7 @@ Mat4 to_clip(Mat4 ndc, Window window, double aspect) {
     return ndc;
 }
 
-/// The usual one of the writer first.
+/// All conventions; the one that this writer usually means comes first.
 std::vector<Window> windows(const std::string& name, Writer writer) {
     const bool ndc = name == "worldToNDC";
     std::vector<Window> result;
@@ -88,7 +89,7 @@ void add_projections(std::vector<HeaderCamera>& found, const Metadata& header, S
     }
 }
 
-/// The header's field of view in radians, degrees being unmistakable above pi.
+/// The header's field of view in radians. Values above pi can only be degrees.
 std::optional<double> field_of_view(const Metadata& header) {
     for (const auto& name : header.names()) {
         const auto value = header.number(name);
@@ -105,7 +106,7 @@ void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, Si
     for (const std::string name : {"worldToCamera", "cameraTransform"}) {
         const auto matrix = header.matrix(name);
         if (!matrix) continue;
-        const bool camera_to_world = name == "cameraTransform";  // V-Ray
+        const bool camera_to_world = name == "cameraTransform";  // as V-Ray means it
         for (const bool rows : {true, false})
             for (const bool usual : {true, false})
                 for (const bool forward_usual : {true, false})
@@ -113,7 +114,7 @@ void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, Si
                         const bool inverted = usual == camera_to_world;
                         const bool back_is_z = forward_usual == camera_to_world;
                         auto view = std::optional(on_columns(*matrix, rows));
-                        if ((*view)[3] != std::array<double, 4>{0, 0, 0, 1}) continue;  // the other way round
+                        if ((*view)[3] != std::array<double, 4>{0, 0, 0, 1}) continue;  // it must be the transpose
                         if (inverted) view = inverse_or_nothing(*view);
                         if (!view) continue;
                         const double fx = horizontal ? focal : focal / aspect, fy = horizontal ? focal * aspect : focal;
@@ -130,7 +131,8 @@ void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, Si
     }
 }
 
-/// What is odd about a camera when there are no positions to check it with: 0 is a plain one.
+/// How unusual a camera is, to choose one when there are no positions to check it with: how far its pixels are from
+/// square, its axis from the picture's centre, its view from the header's worldToCamera. 0 for an ordinary camera.
 double oddness(const Camera& camera, const Metadata& header, Size size) {
     const auto& p = camera.proj;
     double odd = std::abs(std::log(p[0][0] * size.width / (p[1][1] * size.height))) + std::abs(p[0][2]) +
@@ -161,7 +163,8 @@ std::vector<HeaderCamera> header_cameras(const Metadata& header, Size size, Writ
 
 std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, Writer writer,
                                                std::span<const PositionSample> samples) {
-    constexpr double clearly = 0.9, noise = 1e-3;  // share and pixels; within them the more usual reading stays
+    // A less usual reading must be better than this share of the best one, and by more than so many pixels.
+    constexpr double clearly = 0.9, noise = 1e-3;
     std::optional<HeaderCamera> best;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& candidate : header_cameras(header, size, writer)) {

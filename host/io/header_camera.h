@@ -18,16 +18,18 @@ struct HeaderCamera {
     std::string reading;  ///< "worldToNDC, row vectors, (0,0) top left"
 };
 
-/// Every reading of worldToNDC, worldToScreen, worldToCamera or cameraTransform that makes a camera, the most usual
-/// first: writers transpose, turn y up, keep the screen window's aspect or put positions in camera space.
+/// Every reading of worldToNDC, worldToScreen, worldToCamera and cameraTransform that makes a camera, the most usual
+/// one first. Writers differ: some transpose these matrices, let y point up, keep the aspect of the screen window, or
+/// write positions in camera space.
 std::vector<HeaderCamera> header_cameras(const Metadata& header, Size size, Writer writer);
 
-/// The reading that fits the positions best; without positions the one whose pixels are square, whose axis is centred
-/// and which agrees with the camera matrix. Nothing when the header has no camera.
+/// The reading that fits the positions best. Without positions, the one with the squarest pixels and the most centred
+/// axis that agrees best with worldToCamera. Nothing when the header has no camera.
 std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, Writer writer,
                                                std::span<const PositionSample> samples);
 
-/// Camera of the rows x, y and w of world-to-clip; nothing when they make no camera. The depth row is made anew.
+/// The camera of a world-to-clip matrix; nothing when it is no camera's. Only the rows x, y and w are used: the depth
+/// row is replaced by one of our own.
 std::optional<Camera> camera_of_clip(const Mat4& world_to_clip);
 
 }  // namespace wrinkle::io

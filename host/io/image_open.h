@@ -8,7 +8,8 @@
 
 namespace wrinkle::io {
 
-/// Opens an image for reading. Throws Error saying which of these it is: missing, a folder, empty, or not an image.
+/// Opens an image for reading. Throws Error when the file is missing, a folder, empty, cut short or not an image, and
+/// says which.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const OIIO::ImageSpec& options = {});
 
 }  // namespace wrinkle::io

@@ -10,8 +10,8 @@
 namespace wrinkle::io {
 namespace {
 
-/// Writers of multi-part files may leave the layer to the part's name: part "N", channels X, Y, Z. The first part's
-/// plain picture keeps its names.
+/// Some writers of multi-part files put the layer's name into the part's: part "N" has channels X, Y, Z, and X becomes
+/// "N.X" here. R, G, B and A of the first part are the picture and keep their names.
 std::string full_name(const std::string& channel, const std::string& part_name, int part, bool several) {
     if (!several || part_name.empty() || channel.size() > 1) return channel;
     const bool picture = part == 0 && std::string_view("RGBA").find(channel) != std::string_view::npos;
@@ -29,7 +29,7 @@ Part geometry(const OIIO::ImageSpec& spec) {
 }
 
 void check(const OIIO::ImageSpec& spec, Size size, int part, const std::filesystem::path& file) {
-    constexpr int longest_side = 1 << 17;  // beyond it a header is damaged, and memory would run out before rows do
+    constexpr int longest_side = 1 << 17;  // a larger frame means a damaged header; its rows would not fit into memory
     if (spec.full_width < 1 || spec.full_height < 1 || spec.full_width > longest_side ||
         spec.full_height > longest_side) {
         throw Error(fmt::format("{}: a frame of {}x{} pixels; the header is damaged", file.string(), spec.full_width,
@@ -41,12 +41,12 @@ void check(const OIIO::ImageSpec& spec, Size size, int part, const std::filesyst
                             file.string(), part, spec.full_width, spec.full_height, size.width, size.height));
 }
 
-/// OpenImageIO calls V-Ray's cameraTransform, camera to world, "worldtocamera", and would write it as worldToCamera.
-/// The file's own name comes back here.
+/// OpenImageIO renames V-Ray's cameraTransform (camera to world) to "worldtocamera" when it reads, and would write it
+/// as worldToCamera. It gets the name back that it has in the file.
 void add_attributes(OIIO::ParamValueList& list, const OIIO::ParamValueList& found) {
     for (const auto& attribute : found) {
         const auto name = attribute.name() == "worldtocamera" ? OIIO::ustring("cameraTransform") : attribute.name();
-        if (list.contains(name)) continue;  // the first part's value
+        if (list.contains(name)) continue;  // the first part's value stays
         list.attribute(name, attribute.type(), attribute.nvalues(), attribute.data());
     }
 }
@@ -81,7 +81,7 @@ ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file
         }
         add_attributes(result.metadata.data().list, spec.extra_attribs);
     }
-    input.geterror();  // seeking past the last part is no error of ours
+    input.geterror();  // forgets that the loop sought a part beyond the last
     if (result.channels.empty()) {
         throw Error(fmt::format(
             "{}: {}", file.string(),

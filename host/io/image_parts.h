@@ -13,12 +13,12 @@
 
 namespace wrinkle::io {
 
-/// Where one channel lies.
+/// Where in a file a channel is.
 struct ChannelPlace {
     std::string name;
-    std::string stored_name;  ///< in its part
+    std::string stored_name;  ///< its name within its part
     int part = 0, index = 0;
-    bool whole_numbers = false;  ///< EXR UINT: its value is wanted, not a share of 2^32
+    bool whole_numbers = false;  ///< EXR UINT: read as the number itself, not as a share of 2^32
     bool half = false;
 };
 
@@ -26,7 +26,7 @@ struct ChannelPlace {
 struct Part {
     int x = 0, y = 0, width = 0, height = 0;  ///< data window, relative to the frame's top left pixel
     int origin_x = 0, origin_y = 0;           ///< of the data window in the file's own coordinates
-    int tile_height = 0;                      ///< 0: scanlines
+    int tile_height = 0;                      ///< 0 when the part is stored by scanlines
 };
 
 /// The flat parts of an image file and the channels in them.

@@ -19,10 +19,10 @@
 namespace wrinkle {
 namespace {
 
-constexpr std::size_t scratch_floats = 16u << 20;  // 64 MiB of interleaved rows at a time
+constexpr std::size_t scratch_floats = 16u << 20;  // at most 64 MiB of rows are interleaved at a time
 constexpr float largest_half = 65504;
 
-/// Attributes that describe how the old file was stored, not what is in it.
+/// Whether an attribute describes how a file is stored, rather than the picture in it.
 bool describes_storage(std::string_view name) {
     if (name == "oiio:ColorSpace") return false;
     if (name.starts_with("oiio:") || name.starts_with("openexr:")) return true;
@@ -32,7 +32,7 @@ bool describes_storage(std::string_view name) {
     return false;
 }
 
-/// Ids, and what the caller wants whole.
+/// Whether a channel stays 32-bit in a half file: ids of Cryptomatte, and those that the caller names.
 bool keeps_bits(const std::string& channel, const ImageOptions& options) {
     return options.full.contains(channel) || contains_ignoring_case(channel, "crypto");
 }
@@ -86,7 +86,7 @@ struct ImageWriter::Impl {
 
     ~Impl() {
         if (!output) return;
-        proxy.discard();  // nobody will see what close() still writes
+        proxy.discard();  // the file will be deleted, so close() need not write anything
         const std::vector<float> blank(png ? size.width * names.size() : 0);
         for (auto row = next_row; png && row < size.height; ++row)  // libpng prints a complaint about missing rows
             output->write_scanline(static_cast<int>(row), 0, OIIO::TypeFloat, blank.data());
@@ -131,7 +131,7 @@ struct ImageWriter::Impl {
     std::vector<bool> keep_finite;
     std::uint32_t next_row = 0;
     std::vector<float> scratch;
-    AtomicFile file;  // after it the proxy, after that the output: destroyed the other way round
+    AtomicFile file;  // declared in this order, so that output goes before proxy, and proxy before file
     io::DescriptorProxy proxy;
     std::unique_ptr<OIIO::ImageOutput> output;
 };

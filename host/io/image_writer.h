@@ -14,24 +14,24 @@
 namespace wrinkle {
 
 enum class PngEncoding {
-    srgb,    ///< linear light: times 2^exposure, then the sRGB curve
-    linear,  ///< value in [0,1] as it is
-    normal,  ///< (n + 1) / 2, no curve
+    srgb,    ///< for linear light: multiplied by 2^exposure, then the sRGB curve
+    linear,  ///< for values in [0,1], which are written as they are
+    normal,  ///< for normals: (n + 1) / 2, without a curve
 };
 
-/// What a PNG holds for a value, in [0,1]; NaN is 0. `factor` is 2^exposure.
+/// The number in [0,1] that a PNG holds for a value; 0 for NaN. `factor` is 2^exposure.
 float png_value(float value, PngEncoding encoding, float factor);
 
 struct ImageOptions {
-    bool half = false;  ///< EXR: 16-bit floats, finite values kept finite; cryptomatte channels stay 32-bit ...
-    std::set<std::string> full;  ///< ... and so do these
-    Metadata metadata;           ///< EXR: header attributes; those that describe the old file's storage are left out
+    bool half = false;           ///< EXR: 16-bit floats; finite values stay finite, cryptomatte channels stay 32-bit
+    std::set<std::string> full;  ///< further channels that stay 32-bit
+    Metadata metadata;           ///< EXR: attributes for the header; those that say how a file is stored are left out
     PngEncoding png = PngEncoding::srgb;
     double exposure = 0;  ///< stops; PngEncoding::srgb
 };
 
-/// Writes a picture band by band and all or nothing: until finish() returns nothing can be seen under the name, and an
-/// older file stays as it is. The extension chooses the format: .exr (ZIP scanlines) or .png (8 bit, 1 to 4 channels).
+/// Writes a picture band by band. It appears under its name only when finish() returns; until then an older file of
+/// that name stays as it is. The extension chooses the format: .exr (ZIP scanlines) or .png (8 bit, 1 to 4 channels).
 class ImageWriter {
 public:
     /// Throws Error when the folder is missing or not writable, or the extension is neither .exr nor .png.
@@ -41,11 +41,12 @@ public:
     ImageWriter(ImageWriter&&) noexcept;
     ImageWriter& operator=(ImageWriter&&) noexcept;
 
-    /// Rows [row_begin, row_end) from the top, one plane of (row_end - row_begin) * width floats a channel. Bands come
-    /// in order, without gaps. Throws Error when the disk is full.
+    /// Writes rows [row_begin, row_end), counted from the top; `planes` has (row_end - row_begin) * width floats for
+    /// each channel. Bands must come in order, without gaps. Throws Error when the disk is full.
     void write_rows(std::uint32_t row_begin, std::uint32_t row_end, std::span<const float* const> planes);
 
-    /// Writes what is left, so that finish() has only to put the file in place: of several files, all or none.
+    /// Writes everything to disk, so that finish() only has to put the file in place. Who writes several files
+    /// completes all of them before finishing the first, so that either all or none appear.
     void complete();
 
     /// Puts the file in place, synced to disk. Throws Error when rows are missing or the disk is full.

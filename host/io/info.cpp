@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t band_rows = 128;
 constexpr double background_depth = 1e9;
 
-/// Planes worth a range: of a cryptomatte the coverage, its ids are bits.
+/// The planes whose range is reported. Of a cryptomatte that is the coverage: ids are bit patterns, not numbers.
 std::vector<std::string> measured_planes(const Role& role) {
     if (role.name == "cryptomatte") return {"crypto.coverage0"};
     return role.planes;
@@ -31,7 +31,7 @@ bool is_valid(const std::string& role, std::span<const float> components) {
 std::vector<RoleStats> measure(const GBufferReader& reader) {
     std::vector<RoleStats> stats;
     std::vector<std::string> planes;
-    std::vector<std::size_t> counts;  // of planes of each role
+    std::vector<std::size_t> counts;  // how many planes each role has
     for (const auto& role : gbuffer_roles()) {
         if (!reader.has_role(role.name)) continue;
         const auto measured = measured_planes(role);
@@ -71,7 +71,7 @@ std::vector<RoleStats> measure(const GBufferReader& reader) {
     return stats;
 }
 
-/// The camera nobody named: beside the frame, else in its header.
+/// Looks for a camera when none was named: in a file beside the frame, else in the frame's header.
 void find_camera(GBufferInfo& info, const GBufferReader& reader) {
     CameraSource source;
     for (auto beside : {info.file.string() + ".camera.json",

@@ -16,7 +16,7 @@ namespace wrinkle {
 struct RoleStats {
     std::string role;
     std::vector<std::string> channels;
-    double min = 0, max = 0;    ///< of the components of valid pixels; 0 when there are none
+    double min = 0, max = 0;    ///< over the components of all valid pixels; 0 when there are no valid ones
     std::uint64_t invalid = 0;  ///< pixels with NaN or Inf; normals of length 0; depths outside (0, 1e9)
 };
 
@@ -36,8 +36,8 @@ struct GBufferInfo {
     std::uint64_t pixels() const { return std::uint64_t{size.width} * size.height; }
 };
 
-/// Reads the whole frame. Without `camera`, FILE.camera.json beside the frame and then its header are tried.
-/// Throws Error when the frame cannot be read, or a camera that was asked for.
+/// Reads the whole frame. Without `camera`, it tries FILE.camera.json beside the frame, then the frame's header. Throws
+/// Error when the frame, or the camera that was given, cannot be read.
 GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraSource>& camera = std::nullopt,
                         int frame = 0);
 

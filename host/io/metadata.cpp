@@ -36,7 +36,7 @@ void Metadata::set(std::string_view name, const Mat4& row_vectors) {
 std::optional<std::string> Metadata::text(std::string_view name) const {
     const auto* value = find(data_->list, name);
     if (value == nullptr) return std::nullopt;
-    return value->get_string(0);  // 0: every element, manifests are long
+    return value->get_string(0);  // 0: of any length, as manifests are long
 }
 
 std::optional<double> Metadata::number(std::string_view name) const {

@@ -10,8 +10,8 @@
 
 namespace wrinkle {
 
-/// The attributes of an image header: copied from file to file with their types, read by name. Keeps OpenImageIO out
-/// of the headers.
+/// The attributes of an image header. They can be read by name, and copied from one file to another with their types.
+/// Hides OpenImageIO from those who include this header.
 class Metadata {
 public:
     struct Data;

@@ -7,12 +7,12 @@
 
 namespace wrinkle::io {
 
-/// An array of numpy's .npy format. (xtensor's reader, the one in Debian, wants the type of the numbers beforehand, and
-/// tells of a wrong one in its own terms.)
+/// An array of numpy's .npy format. (Debian's xtensor could read it, but only when the type of the numbers is known
+/// beforehand, and its messages about a wrong type are of no use to whoever made the file.)
 template <class T>
 struct NpyArray {
     std::vector<std::size_t> shape;
-    std::vector<T> values;  ///< the last index fastest
+    std::vector<T> values;  ///< in C order: the last index runs fastest
 };
 
 /// Reads little-endian floats of 4 or 8 bytes in C order; T is float or double. Throws Error for anything else, saying
@@ -20,7 +20,7 @@ struct NpyArray {
 template <class T>
 NpyArray<T> read_npy(const std::filesystem::path& file);
 
-/// A .npy file's bytes before the numbers. T is float or double.
+/// The header of a .npy file, which the numbers follow. T is float or double.
 template <class T>
 std::string npy_header(std::span<const std::size_t> shape);
 

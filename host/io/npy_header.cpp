@@ -22,7 +22,8 @@ NpyHeader read_npy_header(std::string_view text, const std::string& name) {
     const auto fail = [&](const char* what) { return Error(fmt::format("{}: {}", name, what)); };
     if (!text.starts_with(npy_magic) || text.size() < 12) throw fail("not a .npy file");
     const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(text[at])); };
-    const std::size_t counted = byte(6) == 1 ? 2 : 4;  // bytes of the header's length, by version
+    // Version 1 stores the header's length in 2 bytes, later ones in 4.
+    const std::size_t counted = byte(6) == 1 ? 2 : 4;
     std::size_t length = 0;
     for (std::size_t i = 0; i < counted; ++i) length |= byte(8 + i) << (8 * i);
     NpyHeader header{.type = {}, .records = {}, .shape = {}, .data = 8 + counted + length};

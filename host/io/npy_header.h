@@ -7,16 +7,16 @@
 
 namespace wrinkle::io {
 
-/// What a .npy file says of itself: the magic bytes, then a Python dict,
+/// The header of a .npy file. After some magic bytes it is a Python dict:
 /// {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }
 struct NpyHeader {
-    std::string type;     ///< of plain numbers, "<f4"; empty when there is a list of fields
-    std::string records;  ///< the list of fields, without its brackets: ('x', '<f4'), ('y', '<f4')
+    std::string type;     ///< of an array of numbers: "<f4"; empty when elements are records
+    std::string records;  ///< fields of the records, without the brackets: ('x', '<f4'), ('y', '<f4')
     std::vector<std::size_t> shape;
     bool fortran_order = false;
     std::size_t data = 0;  ///< where the numbers begin
 
-    /// Elements of the array. Throws Error when no file could hold so many.
+    /// Number of elements. Throws Error when no file could hold so many.
     std::size_t count(const std::string& name) const;
 };
 

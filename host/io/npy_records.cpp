@@ -19,7 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie in the file");
 
-constexpr std::size_t kCharacter = 4;  // bytes of one of kind U
+constexpr std::size_t kCharacter = 4;  // bytes a character in fields of kind U
 constexpr std::size_t kLongest = 1 << 16;
 
 template <class T>
@@ -39,7 +39,8 @@ std::string unreadable(const NpyRecords::Field& field, char order) {
     return order == '>' ? "is big-endian: array.astype(array.dtype.newbyteorder(\"<\"))" : "";
 }
 
-/// ('x', '<f4'), ('shape', '<U6'), ... one after another in a record; ('', '|V4') is a gap.
+/// Reads a list such as ('x', '<f4'), ('shape', '<U6'). Fields follow one another in a record; ('', '|V4') is a gap of
+/// 4 bytes.
 std::vector<NpyRecords::Field> read_fields(const std::string& list, std::size_t& stride, const std::string& name) {
     static const std::regex pattern(R"(\s*\('([^']*)', *'([<>|=])([a-zA-Z])([0-9]{1,6})'\),?)");
     std::vector<NpyRecords::Field> fields;

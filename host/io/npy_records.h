@@ -6,10 +6,11 @@
 
 namespace wrinkle::io {
 
-/// Records of a .npy file: a structured array of numpy's, one dimension, little-endian fields of numbers or text.
+/// The records of a .npy file: a structured array of numpy's with one dimension. Fields are numbers or text, and
+/// little-endian.
 class NpyRecords {
 public:
-    /// `kind` as numpy has it: f, i, u, b numbers; S, U text.
+    /// `kind` is numpy's letter: f, i, u and b are numbers, S and U are text.
     struct Field {
         std::string name;
         char kind = 'f';
@@ -17,17 +18,17 @@ public:
         bool is_text() const { return kind == 'S' || kind == 'U'; }
     };
 
-    /// Whether a file begins as a .npy file does.
+    /// Whether a file begins like a .npy file.
     static bool is(const std::filesystem::path& file);
 
-    /// Throws Error for anything else, saying what is there, and for a file that is cut short.
+    /// Throws Error when the file holds something else, and says what; and when it is cut short.
     explicit NpyRecords(const std::filesystem::path& file);
 
     const std::vector<Field>& fields() const { return fields_; }
     std::size_t rows() const { return rows_; }
-    /// Of a field of numbers, every one of which a double holds but integers beyond 2^53.
+    /// The number of a row in a field of numbers. Integers beyond 2^53 are rounded.
     double number(std::size_t row, const Field& field) const;
-    /// Of a field of text; what is not ASCII in a field of kind U is '?'.
+    /// The text of a row in a field of text. Characters of kind U that are not ASCII become '?'.
     std::string text(std::size_t row, const Field& field) const;
 
 private:

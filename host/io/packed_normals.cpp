@@ -16,7 +16,7 @@ float median(std::vector<float>& values) {
 }  // namespace
 
 bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
-    constexpr float rounding = 0.01f;  // half floats, 8-bit sources
+    constexpr float rounding = 0.01f;  // allows for half floats and 8-bit sources
     const auto outside = [](float c) { return c < -rounding || c > 1 + rounding; };
     for (std::size_t i = 0; i < x.size(); ++i)
         if (std::isfinite(x[i] + y[i] + z[i]) && (outside(x[i]) || outside(y[i]) || outside(z[i]))) return true;
@@ -25,7 +25,7 @@ bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::s
 
 bool looks_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
     if (cannot_be_packed(x, y, z)) return false;
-    constexpr float unit_length = 0.03f;  // what filtering takes off the length inside a surface
+    constexpr float unit_length = 0.03f;  // allows for filtering, which shortens normals a little
     std::vector<float> raw, unpacked;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const float n[3] = {x[i], y[i], z[i]};

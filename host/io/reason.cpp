@@ -7,7 +7,7 @@ namespace wrinkle::io {
 std::string reason(std::string text) {
     text = text.substr(0, text.find('\n'));
     while (text.ends_with(' ')) text.pop_back();
-    // OpenEXR says 'Cannot read image file "F". WHY': the caller has named the file already.
+    // OpenEXR says 'Cannot read image file "F". WHY'. Only WHY is kept, as our message has named the file already.
     if (const auto name = text.find("image file \""); name != std::string::npos) {
         const auto why = text.find("\". ", name);
         if (why != std::string::npos) text = text.substr(why + 3);

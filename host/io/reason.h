@@ -4,7 +4,7 @@
 
 namespace wrinkle::io {
 
-/// A library's reason on one line, in parentheses with a blank before; empty when it gave none.
+/// A library's message, to be put behind our own: one line of it, as " (message)". Empty when it gave none.
 std::string reason(std::string text);
 
 }  // namespace wrinkle::io

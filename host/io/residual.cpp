@@ -10,7 +10,7 @@ namespace {
 constexpr double background_depth = 1e9;  // writers put 1e10 or more where there is nothing
 constexpr std::uint32_t samples_per_row = 256;
 
-/// The value with `share` of the others below it.
+/// The value that a share of all values lie below.
 double quantile(std::vector<double>& values, double share) {
     const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index), values.end());
@@ -35,7 +35,7 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
     if (with_normal)
         for (const char* name : {"normal.x", "normal.y", "normal.z"}) planes.emplace_back(name);
     if (with_depth) planes.emplace_back("depth");
-    // Two neighbouring rows each: they share a compressed block, which is what reading them costs.
+    // Rows are read in neighbouring pairs: both lie in one compressed block, so the second costs nothing.
     std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{2} * width));
     std::vector<float*> out;
     for (auto& plane : values) out.push_back(plane.data());
@@ -52,10 +52,11 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
                                         row + pixel / width + 0.5,
                                         {values[0][pixel], values[1][pixel], values[2][pixel]},
                                         with_depth ? values.back()[pixel] : std::numeric_limits<double>::quiet_NaN()};
-            // A NaN in the depth plane is a hole in the frame, not a missing role.
+            // In a sample a NaN depth means that the frame has no depth at all. A NaN in the plane is a hole: no
+            // sample.
             if (with_depth && std::isnan(sample.depth)) continue;
             const auto normal_length = [&] { return std::hypot(values[3][pixel], values[4][pixel], values[5][pixel]); };
-            if (with_normal && !(normal_length() > 0)) continue;  // sky, whatever its position
+            if (with_normal && !(normal_length() > 0)) continue;  // background, which may have any position
             if (is_surface(sample)) samples.push_back(sample);
         }
     }
@@ -74,8 +75,8 @@ Residual reprojection_residual(const Camera& camera, Size size, std::span<const 
 }
 
 std::optional<DepthKind> measure_depth_kind(const Camera& camera, std::span<const PositionSample> samples) {
-    constexpr double fits = 1e-3;  // relative; half floats and filtering stay below it
-    constexpr double clearly = 4;  // times better than the other reading
+    constexpr double fits = 1e-3;  // largest relative error; half floats and filtering stay below it
+    constexpr double clearly = 4;  // so many times better than the other kind it must fit
     std::vector<double> planar, ray;
     for (const auto& [x, y, p, depth] : samples) {
         if (std::isnan(depth)) continue;

@@ -11,25 +11,26 @@
 
 namespace wrinkle {
 
-/// A pixel whose world position the frame tells.
+/// A pixel with its position in the world, from the frame's position pass.
 struct PositionSample {
     double x = 0, y = 0;  ///< pixel centre
     Vec3 position{};      ///< world
     double depth = 0;     ///< of the depth role; NaN without one
 };
 
-/// Samples of about `rows` rows spread over the frame, background left out. Empty without the position role.
+/// Samples from about `rows` rows spread over the frame, without the background. Empty when the frame has no positions.
 std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::uint32_t rows = 16);
 
-/// How far from their pixels the positions project, in pixels. Positions behind the eye count as infinitely far.
+/// How far from their own pixels a camera projects the positions, in pixels. Positions behind the eye count as
+/// infinitely far away.
 struct Residual {
     double median = 0, p99 = 0;
     std::size_t count = 0;
 };
 Residual reprojection_residual(const Camera& camera, Size size, std::span<const PositionSample> samples);
 
-/// Whether the depth of the samples is measured along the viewing axis or the ray; nothing when neither fits, or the
-/// view is too narrow to tell.
+/// Whether the depths of the samples are measured along the viewing axis (planar) or along the ray. Nothing when
+/// neither fits, or when the view is so narrow that both do.
 std::optional<DepthKind> measure_depth_kind(const Camera& camera, std::span<const PositionSample> samples);
 
 }  // namespace wrinkle

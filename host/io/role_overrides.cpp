@@ -10,7 +10,7 @@
 namespace wrinkle::io {
 namespace {
 
-/// Everything an override could have meant: channels and layers.
+/// All names that an override can take: those of channels and of layers.
 std::vector<std::string> known_names(const ChannelIndex& index) {
     auto names = index.channels;
     std::ranges::copy_if(index.layers, std::back_inserter(names), [](const auto& layer) { return !layer.empty(); });

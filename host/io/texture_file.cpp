@@ -17,7 +17,7 @@ namespace {
 
 void check_channels(const OIIO::ImageSpec& spec, ImageUse use, const std::filesystem::path& file) {
     const int n = spec.nchannels;
-    const bool alpha = n == 2 && spec.alpha_channel == 1;  // grey with coverage: one channel of data
+    const bool alpha = n == 2 && spec.alpha_channel == 1;  // grey and alpha: only one channel of data
     const bool fits = use == ImageUse::scalar          ? n == 1 || n >= 3 || alpha
                       : use == ImageUse::object_normal ? n >= 3
                                                        : n >= 3 || (n == 2 && !alpha);
@@ -56,8 +56,9 @@ Image read_texels(OIIO::ImageInput& input, int channels, const std::filesystem::
     return image;
 }
 
-/// Whether most float normals are stored as (n + 1) / 2: those nearer to unit length so; of two channels those that fit
-/// into a unit vector so. A few texels outside [0,1] are what a resize leaves, and decide nothing.
+/// Whether a float file stores its normals as (n + 1) / 2, by a majority of texels. A texel counts for it when
+/// unpacking brings its length nearer to 1; of two channels, when the unpacked ones fit into a unit vector. A majority,
+/// since resizing a packed file may leave a few texels outside of [0,1].
 bool mostly_packed(const Image& read) {
     const auto channels = static_cast<std::size_t>(read.channels);
     std::size_t packed = 0;
@@ -72,7 +73,7 @@ bool mostly_packed(const Image& read) {
     return 2 * packed >= read.texels.size() / channels;
 }
 
-/// Signed to [0,1], and the z of two-channel maps.
+/// Normals of three channels in [0,1], from signed ones and from files that have no z.
 Image complete_normals(const Image& read, bool is_float) {
     const auto texels = static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
     const auto channels = static_cast<std::size_t>(read.channels);
@@ -89,7 +90,7 @@ Image complete_normals(const Image& read, bool is_float) {
     return image;
 }
 
-/// Vectors, from what holds them as they are or as (v + 1) / 2.
+/// Vectors, from files that hold them as they are or as (v + 1) / 2.
 Image unpacked_vectors(Image image, bool is_float) {
     constexpr float shortest = 0.125f;
     const std::size_t texels = image.texels.size() / 3;
@@ -106,19 +107,19 @@ Image unpacked_vectors(Image image, bool is_float) {
 
 std::unique_ptr<OIIO::ImageInput> open_flat(const std::filesystem::path& file) {
     OIIO::ImageSpec options;
-    options.attribute("oiio:UnassociatedAlpha", 1);  // or a transparent texel's height would be multiplied by 0
+    options.attribute("oiio:UnassociatedAlpha", 1);  // else heights of transparent texels would be multiplied by 0
     auto input = io::open_image(file, options);
     const auto& spec = input->spec();
     if (spec.deep || spec.depth > 1) throw Error(fmt::format("{}: not a flat image", file.string()));
     return input;
 }
 
-/// What the two slopes of a file are multiplied by to be per unit of texture coordinate, and where they are.
+/// In which channels a file holds its two slopes, and the factors that make them slopes per unit of texture coordinate.
 struct SlopeLayout {
     int s_channel = 0, t_channel = 1;
     float s_factor = 1, t_factor = 1;
-    bool packed = false;      ///< 2 texel - 1 first
-    bool bumpslopes = false;  ///< of maketx: heights in channel 0
+    bool packed = false;      ///< a slope is stored as (slope + 1) / 2, before these factors
+    bool bumpslopes = false;  ///< written by maketx --bumpslopes, with heights in channel 0
 };
 
 SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUnit unit,
@@ -133,7 +134,7 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
             "{}: its slopes, of maketx --bumpslopes, are per texture; those of decals are metres over metres. "
             "Use its heights, which are in its first channel: content = \"height\"",
             file.string()));
-    if (s < n && t < n) {  // its t runs down the rows
+    if (s < n && t < n) {  // t of these files points down, hence the minus
         const float scale = spec.get_float_attribute("uvslopes_scale");
         return scale == 0 ? SlopeLayout{s, t, width, -height, false, true}
                           : SlopeLayout{s, t, scale, -scale, false, true};
@@ -170,7 +171,8 @@ Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUni
     const auto input = open_flat(file);
     SlopeLayout at = slope_layout(input->spec(), encoding, unit, file);
     const Image read = read_texels(*input, std::max(at.s_channel, at.t_channel) + 1, file);
-    if (at.bumpslopes) {  // made from normals, it has heights of -1 and their t
+    // A file that maketx made from a normal map has -1 for all its heights, and its t points up.
+    if (at.bumpslopes) {
         bool normals = true;
         for (int y = 0; y < read.height; ++y)
             for (int x = 0; x < read.width; ++x) normals = normals && read.at(x, y, 0) == -1;

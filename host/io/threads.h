@@ -2,7 +2,7 @@
 
 namespace wrinkle {
 
-/// How many threads image files are decompressed and compressed with; for the whole program.
+/// Sets how many threads read and write image files, for the whole program.
 void set_image_threads(int threads);
 
 }  // namespace wrinkle

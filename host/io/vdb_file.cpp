@@ -1,4 +1,5 @@
-// The only file that includes OpenVDB's headers: they compile slowly. openvdb.h, with every type of grid, slowest.
+// The only file that includes OpenVDB's headers, since they compile slowly. openvdb.h, which has every type of grid,
+// would be the slowest, so it is not included.
 #include <openvdb/Grid.h>
 #include <openvdb/io/File.h>
 #include <openvdb/io/GridDescriptor.h>
@@ -11,7 +12,7 @@
 namespace openvdb {
 OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {
-OPENVDB_API void initialize();  // of openvdb.h
+OPENVDB_API void initialize();  // declared in openvdb.h
 }
 }  // namespace openvdb
 
@@ -25,7 +26,7 @@ template <class T>
 using GridOf = openvdb::Grid<typename openvdb::tree::Tree4<T, 5, 4, 3>::Type>;
 using openvdb::Coord, openvdb::Vec3d, openvdb::Vec3s;
 
-/// Calls `work` with the grid as what it is; false when it is none of the types.
+/// Calls `work` with the grid as its own type. False when it is of a type that is not read here.
 template <class Work>
 bool as_typed(const openvdb::GridBase& grid, const Work& work) {
     const auto as = [&](auto none) {
@@ -58,7 +59,7 @@ void read_voxels(const Grid& grid, RawVolume& raw) {
     }
 }
 
-/// A grid of the blocks that are not all background, one value for those that are constant.
+/// A grid without blocks that are all background, and with a single value for blocks that are constant.
 template <class T>
 openvdb::GridBase::Ptr make_grid(const DenseVolume& volume) {
     using Tree = typename GridOf<T>::TreeType;
@@ -104,8 +105,8 @@ openvdb::GridBase::Ptr make_grid(const DenseVolume& volume) {
     return grid;
 }
 
-/// Whether the file holds all of its grids. OpenVDB does not look for the end of a file, and takes sizes from what is
-/// not there.
+/// Checks whether a file holds all of its grids. OpenVDB does not notice when it reads past the end of a file, and goes
+/// on with sizes that are not there.
 class Contents : public openvdb::io::Archive {
 public:
     static bool complete(const fs::path& file) {
@@ -129,9 +130,9 @@ public:
     }
 };
 
-/// Writes to a stream of the caller's, whose errors it sees, with places of grids as in files: openvdb::io::File hides
-/// a full disk, openvdb::io::Stream leaves the places out.
-class Writer : public openvdb::io::Archive {
+/// Writes a file to the caller's stream. openvdb::io::File would hide that a disk is full; openvdb::io::Stream would
+/// leave out where in the file each grid is.
+class StreamArchive : public openvdb::io::Archive {
 public:
     using Archive::write;
 };
@@ -156,13 +157,13 @@ std::vector<ListedGrid> list_vdb(const fs::path& file) {
 RawVolume read_vdb(const fs::path& file, const std::string& name, bool voxels) {
     openvdb::initialize();
     openvdb::io::File in(file.string());
-    in.open(false);  // all at once: nothing is left to read when a kernel runs
+    in.open(false);  // false: voxels are read now, not when they are first used
     const openvdb::GridBase::Ptr grid = voxels ? in.readGrid(name) : in.readGridMetadata(name);
     RawVolume raw;
     raw.channels = grid->isType<GridOf<Vec3s>>() || grid->isType<GridOf<Vec3d>>() ? 3 : 1;
     raw.affine = grid->transform().isLinear();
     if (raw.affine) {
-        const openvdb::Mat4d m = grid->transform().baseMap()->getAffineMap()->getMat4();  // acts on rows
+        const openvdb::Mat4d m = grid->transform().baseMap()->getAffineMap()->getMat4();  // acts on row vectors
         for (int row = 0; row < 4; ++row)
             for (int column = 0; column < 4; ++column)
                 raw.world_from_index[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = m(column, row);
@@ -184,7 +185,7 @@ void write_vdb(std::ostream& out, const DenseVolume& volume) {
                        : volume.channels == 3 ? openvdb::GRID_UNKNOWN
                                               : openvdb::GRID_FOG_VOLUME);
     grid->setSaveFloatAsHalf(volume.half);
-    Writer().write(out, openvdb::GridPtrVec{grid}, true);
+    StreamArchive().write(out, openvdb::GridPtrVec{grid}, true);
 }
 
 }  // namespace wrinkle::io

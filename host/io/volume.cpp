@@ -9,7 +9,7 @@ bool is_singular(const Mat4& m) {
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    constexpr double kFlat = 1e-9;  // of the box that the axes would span at right angles
+    constexpr double kFlat = 1e-9;  // share of the volume that the axes would span if they were perpendicular
     return !(std::abs(determinant) > kFlat * axis(0) * axis(1) * axis(2)) || !std::isfinite(determinant);
 }
 

@@ -10,30 +10,31 @@
 
 namespace wrinkle {
 
-/// Whether an affine matrix cannot be inverted: its axes are zero, nearly parallel, or not finite.
+/// Whether an affine matrix cannot be inverted, as an axis is zero or not finite, or axes are nearly parallel.
 bool is_singular(const Mat4& m);
 
-/// What a grid of a volume file is, without its voxels.
+/// What is known of a grid without reading its voxels.
 struct VolumeInfo {
     std::string grid;
     int channels = 1;         ///< 1: float values; 3: vectors
-    Mat4 index_from_world{};  ///< affine; voxel centres at whole indices
+    Mat4 index_from_world{};  ///< affine; centres of voxels lie at whole indices
 };
 
-/// A sparse grid as blocks of 8 x 8 x 8 voxels: those of a box of blocks; all outside is background.
+/// A sparse grid: a box of blocks of 8 x 8 x 8 voxels each. A block has its own voxels or is constant. Outside of the
+/// box everything is background.
 struct Volume {
     static constexpr int edge = 8;
     static constexpr std::size_t block_voxels = edge * edge * edge;
 
     VolumeInfo info;
-    std::array<int, 3> first{}, count{};  ///< the box, in blocks
-    std::vector<std::int32_t> blocks;     ///< of the box, x fastest: number in `voxels`, or -1 - number in `constants`
-    std::vector<float> voxels;            ///< 512 a block and channel, x fastest, channel by channel
-    std::vector<float> constants{0, 0, 0};  ///< 3 numbers each; the first is the background
+    std::array<int, 3> first{}, count{};  ///< the box: its first block, and how many along each axis
+    std::vector<std::int32_t> blocks;     ///< of the box, x fastest: place in `voxels`, or -1 - place in `constants`
+    std::vector<float> voxels;  ///< for each block and channel 512 numbers, x fastest; a block's channels one by one
+    std::vector<float> constants{0, 0, 0};  ///< 3 numbers each; the first constant is the background
 
-    /// Place in `blocks` of a block; nothing outside the box.
+    /// The place of a block in `blocks`. Nothing outside of the box.
     std::optional<std::size_t> block(int x, int y, int z) const;
-    /// The voxel of any index.
+    /// The value of any voxel, also outside of the box.
     float at(int x, int y, int z, int channel) const;
 };
 

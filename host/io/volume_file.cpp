@@ -34,7 +34,7 @@ std::string list(const std::vector<ListedGrid>& grids) {
     return text.empty() ? "none" : text;
 }
 
-/// Number of the grid `wanted`, or of the only usable one.
+/// The number of the grid named `wanted`. When that is empty, of the only grid that can be used.
 std::size_t choose(const fs::path& file, const std::vector<ListedGrid>& grids, const std::string& wanted) {
     std::vector<std::size_t> fitting;
     std::vector<std::string> names;
@@ -58,7 +58,7 @@ std::size_t choose(const fs::path& file, const std::vector<ListedGrid>& grids, c
     return fitting.front();
 }
 
-/// True for NanoVDB; throws unless the file starts as one of the two formats in a version that is known.
+/// True for NanoVDB, false for OpenVDB. Throws Error when the file is neither, or of a version that cannot be read.
 bool is_nano(const fs::path& file) {
     std::error_code error;
     if (fs::is_directory(file, error))
@@ -83,8 +83,8 @@ bool is_nano(const fs::path& file) {
     return nano;
 }
 
-/// A library's text without the name of its exception: "IoError: no space" says "no space". A single word is a name
-/// of its own insides.
+/// What a library's message says to a user, as reason() gives it: "IoError: no space" becomes "no space". A message of
+/// a single word becomes empty, as it is a name from inside the library.
 std::string readable(const std::string& text) {
     const std::size_t colon = text.find(": ");
     const bool named = colon != std::string::npos && text.find(' ') > colon;
@@ -92,7 +92,7 @@ std::string readable(const std::string& text) {
     return why.find(' ', 1) == std::string::npos ? "" : why;
 }
 
-/// Runs `work`; what the libraries throw becomes the Error `what` of the file and the reason.
+/// Runs `work`. What the libraries throw becomes an Error: `what` is its format, of the file's name and the reason.
 template <class Work>
 auto told(const fs::path& file, const char* what, const Work& work) {
     try {
@@ -104,7 +104,7 @@ auto told(const fs::path& file, const char* what, const Work& work) {
     }
 }
 
-/// The grid and its name.
+/// Reads the grid `wanted`, or the only one. Gives the grid and its name.
 std::pair<RawVolume, std::string> read_grid(const fs::path& file, const std::string& wanted, bool voxels) {
     const bool nano = is_nano(file);
     return told(file, "{}: cannot be read{}; it may be truncated or damaged", [&] {
@@ -126,7 +126,7 @@ VolumeInfo info_of(const fs::path& file, const std::string& name, const RawVolum
 
 bool finite(const std::array<float, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
-/// Builds the box of blocks.
+/// Sorts leaves and tiles into the box of blocks. Throws Error when the grid is empty, too large or not finite.
 Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
     const auto fail = [&](const std::string& text) {
         return Error(fmt::format("{}: the grid {} {}", file.string(), quote(info.grid), text));

@@ -6,13 +6,13 @@
 
 namespace wrinkle {
 
-/// Reads an OpenVDB (.vdb) or NanoVDB (.nvdb) file: float, double or 3-vectors of them, level set or fog, stored as
-/// half or quantised or not. Without a name the file must hold one such grid. Throws Error telling the file, the grids
-/// that it holds, and what is wrong: no volume file, a newer version, no such grid, another type, an empty grid, a
-/// voxel that is not finite, a transform that is not affine or cannot be inverted.
+/// Reads a grid of an OpenVDB (.vdb) or NanoVDB (.nvdb) file: float, double or 3-vectors of them; level set or fog;
+/// also when it is stored as half or quantised. With an empty name the file must hold exactly one such grid. Throws
+/// Error for a file that is no volume or of a newer version, for a grid that is not there, of another type or empty,
+/// for voxels that are not finite, and for a transform that is not affine or cannot be inverted.
 Volume load_volume(const std::filesystem::path& file, const std::string& grid);
 
-/// The same, without the voxels of an OpenVDB file.
+/// The same without the voxels, which are not even read from an OpenVDB file.
 VolumeInfo volume_info(const std::filesystem::path& file, const std::string& grid);
 
 /// A box of voxels to write.
@@ -22,7 +22,7 @@ struct DenseVolume {
     int channels = 1;           ///< 1, or 3 for vectors
     std::vector<float> values;  ///< x fastest, then y, z; the channels of a voxel side by side
     float background = 0;
-    bool level_set = false;  ///< values from the background on, and its negative, are outside the narrow band
+    bool level_set = false;  ///< values of at least the background's magnitude lie outside of the narrow band
     bool half = false;       ///< store 16 bits a number
     Mat4 world_from_index{};
 };

@@ -4,31 +4,31 @@
 
 #include "io/volume_file.h"
 
-/// What the readers and writers of the two volume formats share with volume_file.cpp.
+/// What volume_file.cpp shares with the readers and writers of the two volume formats.
 namespace wrinkle::io {
 
-/// A grid of a file, in the terms of messages.
+/// A grid of a file, as messages tell of it.
 struct ListedGrid {
     std::string name, type;
     bool usable = false;  ///< float, double or 3-vectors of them
 };
 
-/// A grid as it lies in a file: leaves of 8^3 voxels, and tiles of one value.
+/// A grid as files hold it: leaves with 8^3 voxels each, and tiles, which are boxes of a single value.
 struct RawVolume {
     int channels = 1;
     bool affine = true;
     Mat4 world_from_index{};
     std::array<float, 3> background{};
     struct Tile {
-        std::array<int, 3> first, last;  ///< blocks, inclusive
+        std::array<int, 3> first, last;  ///< its first and last block along each axis
         std::array<float, 3> value;
     };
-    std::vector<Tile> tiles;                 ///< other than background
-    std::vector<std::array<int, 3>> leaves;  ///< their blocks
-    std::vector<float> voxels;               ///< as Volume::voxels
+    std::vector<Tile> tiles;                 ///< without those of the background's value
+    std::vector<std::array<int, 3>> leaves;  ///< the block that each leaf fills
+    std::vector<float> voxels;               ///< of the leaves, in the order of Volume::voxels
 };
 
-/// Copies the 512 voxels of a leaf, whose z runs fastest, and its block's coordinates.
+/// Appends a leaf. In files z runs fastest, in `raw` x does.
 template <class Leaf>
 void add_leaf(RawVolume& raw, const Leaf& leaf) {
     const auto numbers = [](const auto& v, float* to) {
@@ -52,18 +52,18 @@ void add_leaf(RawVolume& raw, const Leaf& leaf) {
 }
 
 std::vector<ListedGrid> list_vdb(const std::filesystem::path& file);
-/// Without `voxels` only the transform and the type are read.
+/// With `voxels` false, only the transform and the type are read.
 RawVolume read_vdb(const std::filesystem::path& file, const std::string& grid, bool voxels);
-/// The stream throws when it cannot be written.
+/// `out` must throw when it cannot be written to.
 void write_vdb(std::ostream& out, const DenseVolume& volume);
-/// The newest file version that can be read.
+/// The newest version of OpenVDB files that can be read.
 std::uint32_t newest_vdb();
 
 std::vector<ListedGrid> list_nvdb(const std::filesystem::path& file);
 RawVolume read_nvdb(const std::filesystem::path& file, std::size_t number);
-/// The same; numbers, not vectors.
+/// As write_vdb, but vectors cannot be written.
 void write_nvdb(std::ostream& out, const DenseVolume& volume);
-/// The version of NanoVDB files that can be read: another major one cannot.
+/// The major version of NanoVDB files that can be read.
 std::uint32_t nvdb_version();
 
 }  // namespace wrinkle::io

@@ -10,7 +10,7 @@
 namespace wrinkle::io {
 
 std::span<const RoleNames> role_names() {
-    // RenderMan's __P and __Nn are camera space and Pref is the rest pose: left out on purpose.
+    // RenderMan's __P and __Nn are missing here on purpose, as they are in camera space; so is Pref, the rest pose.
     static const std::vector<RoleNames> names{
         {"position", {"position", "pworld", "worldposition", "worldpos", "pos", "pp", "p"}},
         {"normal",

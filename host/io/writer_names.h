@@ -7,20 +7,22 @@
 
 #include "io/gbuffer_roles.h"
 
-/// What the writers call things, as data: the one place to add a writer or a spelling.
+/// How the programs that write G-buffers spell the names of layers and components. A new program or spelling is added
+/// here.
 namespace wrinkle::io {
 
-/// Spellings of a role's layer, best first: lower case, without "_", "-", blanks and writer prefixes.
+/// How a role's layer may be spelled, best first, in the form that plain_layer_name() gives.
 struct RoleNames {
     std::string_view role;
     std::vector<std::string_view> layers;
 };
 std::span<const RoleNames> role_names();
 
-/// "FinalImageMovieRenderQueue_WorldNormal" -> "worldnormal", "__Nworld" -> "nworld".
+/// A layer's name in lower case, without "_", "-", blanks and prefixes of writers:
+/// "FinalImageMovieRenderQueue_WorldNormal" becomes "worldnormal", "__Nworld" becomes "nworld".
 std::string plain_layer_name(std::string_view base);
 
-/// Component letters of a role with as many planes, in the order of its planes: "xyz", "rgb" ...; lower case.
+/// The sets of component names, in lower case, that a role with so many planes may have: x y z, r g b and so on.
 std::vector<std::vector<std::string_view>> component_sets(std::string_view role, std::size_t planes);
 
 Writer recognise_writer(std::span<const std::string> channels);

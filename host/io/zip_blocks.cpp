@@ -29,10 +29,10 @@ struct StoredChannel {
 struct StoredPart {
     int top = 0, height = 0, block_rows = 0;
     std::size_t width = 0, row_bytes = 0;
-    std::vector<StoredChannel> channels;  ///< in the order of a row
+    std::vector<StoredChannel> channels;  ///< in the order in which a row stores them
 };
 
-/// Empty for all but ZIP scanlines with one sample a pixel.
+/// The channels of a part. Nothing when the part is not stored as ZIP scanlines with one sample a pixel.
 std::optional<StoredPart> list(exr_const_context_t file, int part) {
     exr_storage_t storage{};
     exr_compression_t compression{};
@@ -58,8 +58,8 @@ std::optional<StoredPart> list(exr_const_context_t file, int part) {
     return result;
 }
 
-/// Undoes what EXR does before it deflates a block: all even bytes come before all odd ones, and each of these is
-/// stored as its difference from the one before, plus 128.
+/// Undoes what EXR does to a block before it is deflated: it puts all even bytes before all odd ones, then stores each
+/// byte as its difference from the one before, plus 128.
 class PredictedBytes {
 public:
     explicit PredictedBytes(std::span<const std::uint8_t> block) : even_(block.data()), odd_(even_ + block.size() / 2) {
@@ -85,7 +85,7 @@ public:
 private:
     static constexpr std::uint8_t bias = 128;
 
-    /// The last byte behind `count` differences; only their sum counts.
+    /// The byte that `count` differences lead to from `last`: only their sum is needed.
     static std::uint8_t after(std::uint8_t last, const std::uint8_t* differences, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) last = static_cast<std::uint8_t>(last + differences[i]);
         return static_cast<std::uint8_t>(last - count * bias);
@@ -99,7 +99,7 @@ struct FreeDecompressor {
     void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
 };
 
-/// What a thread needs for a block; kept, since fresh pages cost as much as the work in them.
+/// The memory that a thread needs for a block. It is reused, as touching fresh memory costs as much as the work.
 struct Workspace {
     std::vector<std::uint8_t> packed, inflated, row;
     std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor{libdeflate_alloc_decompressor()};
@@ -137,7 +137,7 @@ struct ZipBlocks::Impl {
         idle.push_back(std::move(workspace));
     }
 
-    /// `out` has a pointer for each stored channel: its first pixel of these rows, or null.
+    /// `out` has a pointer for each stored channel: to its first pixel of these rows, or null when it is not wanted.
     bool read_block(int index, int y, std::span<float* const> out, std::size_t stride, Workspace& work) const {
         const StoredPart& part = *parts[static_cast<std::size_t>(index)];
         const auto rows = static_cast<std::size_t>(std::min(part.block_rows, part.height - y));
@@ -147,7 +147,7 @@ struct ZipBlocks::Impl {
             return false;
         work.packed.resize(chunk.packed_size);
         if (exr_read_chunk(file, index, &chunk, work.packed.data()) != EXR_ERR_SUCCESS) return false;
-        const bool deflated = chunk.packed_size < chunk.unpacked_size;  // else it would not have become smaller
+        const bool deflated = chunk.packed_size < chunk.unpacked_size;  // else it is stored as it is
         if (deflated) {
             work.inflated.resize(chunk.unpacked_size);
             if (libdeflate_zlib_decompress(work.decompressor.get(), work.packed.data(), work.packed.size(),

@@ -94,11 +94,11 @@ std::string emit(LayerText& at) {
     return fmt::format(
         R"(        for (uint i = {}; i < {}; ++i) {{
             global const wr_projector *decal = decals + i;
-            wr_projected in = wr_project(decal, p);
-{}            real weight = m * wr_projector_falloff(decal, in){};
+            wr_projected in = wr_project_box(decal, p);
+{}            wr_real weight = m * wr_projector_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
-            real lod = {};
-            vec2 slope = {};
+            wr_real lod = {};
+            wr_vec2 slope = {};
             {}
         }}
 )",
@@ -109,7 +109,7 @@ std::string emit(LayerText& at) {
             ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
             : "0",
         sample_text(decal_of(at.layer).texture, "wr_projector_st(in)", "lod", "weight != 0"),
-        mixed ? "vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+        mixed ? "wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
                 "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_projector_bumped_axis(decal, in, "
                 "slope), "
                 "weight), below));"

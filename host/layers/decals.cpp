@@ -87,7 +87,7 @@ std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& ta
                 cryptomatte_hash(at.emitter.available.cryptomatte, name, at.who + ": " + row_place(layer, i));
         table.hashes.push_back(found->second);
     }
-    text += "                    if (decal->mask == 2) {\n                        real covered = 0;\n";
+    text += "                    if (decal->mask == 2) {\n                        wr_real covered = 0;\n";
     for (int rank = 0; at.emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
         const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
         at.section.inputs.insert({id, coverage});
@@ -140,11 +140,11 @@ std::string emit(LayerText& at) {
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += kDecal + sample_cost({});
     return fmt::format(
-        R"(        vec3 sum = wr_zero3();
-        index tile = wr_tile_number(wr_index(at.x), wr_index(at.y) - (int)first_row, (int)supers);
-        for (mask left = active; wr_any(left);) {{
+        R"(        wr_vec3 sum = wr_zero3();
+        wr_index tile = wr_tile_number(wr_to_index(at.x), wr_to_index(at.y) - (int)first_row, (int)supers);
+        for (wr_mask left = active; wr_any(left);) {{
             int bin = wr_first_tile(tile, left);
-            mask here = left & wr_mask(tile == bin);
+            wr_mask here = left & wr_to_mask(tile == bin);
             left = left & !here;
             uint begin = lists[WR_LIST_WORDS * bin + WR_LIST_FIRST];
             uint end = begin + lists[WR_LIST_WORDS * bin + WR_LIST_COUNT];
@@ -156,11 +156,11 @@ std::string emit(LayerText& at) {
                     uint number = entries[from + wr_first_bit(touching)];
 {}                    global const wr_projector *decal = projectors + number;
                     wr_projected in = wr_project(decal, p);
-                    mask touched = here & in.inside;
-                    real weight = touched ? wr_projector_falloff(decal, in){} : (real)(0);
+                    wr_mask touched = here & in.inside;
+                    wr_real weight = touched ? wr_projector_falloff(decal, in){} : (wr_real)(0);
 {}                    if (!wr_any(weight != 0)) continue;
                     wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
-                    real lod = {};
+                    wr_real lod = {};
                     sum = wr_projector_blend(decal, in, wr_projector_slope(t, decal, in, lod, weight != 0), weight, sum);
                 }}
             }}

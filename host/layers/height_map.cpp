@@ -31,7 +31,7 @@ std::string emit(LayerText& at) {
     at.section.operations += kTaps;
     const std::string text =
         at.located(l.texture, TexelKind::height) +
-        fmt::format("        vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n", at.lod("c.dx", "c.dy"));
+        fmt::format("        wr_vec2 dh = wr_height_taps(t, c.st, c.dx, c.dy, {});\n", at.lod("c.dx", "c.dy"));
     return text + at.slopes("from_screen_slope", "dh");
 }
 

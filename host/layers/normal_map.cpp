@@ -90,15 +90,15 @@ std::string emit(LayerText& at) {
         });
         text += fmt::format(
             "        slope.x *= numbers[{}], slope.y *= numbers[{}];\n"
-            "        m = vertex_tb_valid ? m : (real)(0);\n",
+            "        m = vertex_tb_valid ? m : (wr_real)(0);\n",
             mirror, mirror + 1);
         at.section.operations += 8;
     } else {
-        text += fmt::format("        wr_frame_tb f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
+        text += fmt::format("        wr_tangents f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
         at.section.operations += kFrame;
         if (l.uv.source == UvSource::planar)
             text += fmt::format(
-                "        m = wr_has_planar_frame(n, {}) ? m : (real)(0);\n",
+                "        m = wr_has_planar_frame(n, {}) ? m : (wr_real)(0);\n",
                 at.vector("axis of the planar uv", [](const Layer& layer) { return plane_axis(own_uv(layer)); }));
     }
     const char* frame = planes ? "vertex_tb" : "f";
@@ -108,8 +108,8 @@ std::string emit(LayerText& at) {
     at.section.operations += kCombine;
     at.section.reads.insert("dh_dp");
     return text + fmt::format(
-                      "        vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
-                      "        vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (real)({}));\n"
+                      "        wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                      "        wr_vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (wr_real)({}));\n"
                       "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
                       frame, at.strength(), combine_function(l.combine));
 }

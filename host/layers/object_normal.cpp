@@ -91,7 +91,7 @@ Rows turn_of(const ObjectNormalLayer& l, const std::string& who) {
 
 std::string emit(LayerText& at) {
     const auto& l = std::get<ObjectNormalLayer>(at.layer.bump);
-    std::string text = at.textured(l.texture, "vec3 v");
+    std::string text = at.textured(l.texture, "wr_vec3 v");
     at.section.operations += kPerturbedNormal;
     if (l.channels != kIdentity || l.object_to_world != kIdentity) {
         const std::size_t rows = at.emitter.numbers(at.layer, "object_to_world", [](const Layer& layer, const auto&) {

@@ -33,13 +33,9 @@ double scale(const Layer& layer) { return layer.scale; }
 const ParallaxLayer& parallax_of(const Layer& layer) { return std::get<ParallaxLayer>(layer.bump); }
 
 bool on_uv_plane(const Layer& layer) {
-    const auto reads = [](const auto& bump) {
-        if constexpr (requires { bump.uv; })
-            return bump.uv.source == UvSource::aov;
-        else
-            return false;
-    };
-    return std::visit(reads, layer.bump) || (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
+    const UvMapping* uv = find_uv(layer);
+    return (uv && uv->source == UvSource::aov) ||
+           (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
 }
 
 /// Whether a layer after this one uses the UV plane, so that it has to move too.
@@ -59,8 +55,8 @@ std::string reach_text(Emitter& emitter, const Layer& layer, const std::string& 
             return parallel ? 20 * kDeepest : farthest(parallax_of(l).level);
         });
     return fmt::format("wr_parallax_reach({}, {}, {})",
-                       parallax_of(layer).mode == ParallaxMode::march ? cosine : "(real)(1)", depth,
-                       emitter.available.camera == CameraKind::parallel ? fmt::format("(real)({})", most)
+                       parallax_of(layer).mode == ParallaxMode::march ? cosine : "(wr_real)(1)", depth,
+                       emitter.available.camera == CameraKind::parallel ? fmt::format("(wr_real)({})", most)
                                                                         : fmt::format("{} * {}", distance, most));
 }
 
@@ -70,8 +66,8 @@ std::string turn(LayerText& at, bool uv) {
     at.section.writes.insert("n");
     at.section.operations += 90 + (uv ? 2 * kProjection : 0);
     std::string text =
-        "        vec3 flat = n, flat_dx = dp_dx, flat_dy = dp_dy;\n"
-        "        vec3 turned = wr_parallax_normal(n, dn_dx, dn_dy, wr_scale(pixels, nearer), v);\n"
+        "        wr_vec3 flat = n, flat_dx = dp_dx, flat_dy = dp_dy;\n"
+        "        wr_vec3 turned = wr_parallax_normal(n, dn_dx, dn_dy, wr_scale(pixels, nearer), v);\n"
         "        n = wr_select(active, turned, n);\n"
         "        {\n" +
         derivative_text(at.emitter) +
@@ -79,8 +75,8 @@ std::string turn(LayerText& at, bool uv) {
         "        dp_dx = wr_select(active, dp_dx, flat_dx), dp_dy = wr_select(active, dp_dy, flat_dy);\n";
     if (uv)
         text +=
-            "        vec2 uv_dx = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dx);\n"
-            "        vec2 uv_dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy);\n"
+            "        wr_vec2 uv_dx = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dx);\n"
+            "        wr_vec2 uv_dy = wr_project_to_texture(flat, flat_dx, flat_dy, uv.dx, uv.dy, dp_dy);\n"
             "        uv.dx = wr_select(active, uv_dx, uv.dx), uv.dy = wr_select(active, uv_dy, uv.dy);\n";
     return text;
 }
@@ -101,36 +97,37 @@ std::string emit(LayerText& at) {
     const std::string name =
         fmt::format("wr_{}{}", march ? "parallax_march" : "height", l.texture.wrap == Wrap::clamp ? "_clamp" : "");
     std::string text = at.located(l.texture, TexelKind::height);
-    text += fmt::format("        vec3 v = {};\n", to_viewer_text(at.emitter));
-    if (!parallel) text += "        real distance = sqrt(wr_dot(p, p));\n";
-    text += fmt::format("        real reach = {};\n", reach_text(at.emitter, at.layer, "wr_dot(n, v)",
-                                                                 "m * " + at.number("scale", scale), "distance"));
+    text += fmt::format("        wr_vec3 v = {};\n", to_viewer_text(at.emitter));
+    if (!parallel) text += "        wr_real distance = sqrt(wr_dot(p, p));\n";
+    text += fmt::format("        wr_real reach = {};\n", reach_text(at.emitter, at.layer, "wr_dot(n, v)",
+                                                                    "m * " + at.number("scale", scale), "distance"));
     const char* project = "wr_project_to_texture(n, dp_dx, dp_dy, {}, {}, v)";
     if (at.layer.footprint || l.curved)
-        text += fmt::format(
-            "        vec2 pixels = {};\n",
-            fmt::format(fmt::runtime(project), "wr_v2((real)(1), (real)(0))", "wr_v2((real)(0), (real)(1))"));
+        text += fmt::format("        wr_vec2 pixels = {};\n",
+                            fmt::format(fmt::runtime(project), "wr_v2((wr_real)(1), (wr_real)(0))",
+                                        "wr_v2((wr_real)(0), (wr_real)(1))"));
     if (at.layer.footprint) text += "        reach *= wr_parallax_weight(reach * sqrt(wr_dot(pixels, pixels)));\n";
     text += "        active = active & (reach > 0);\n        if (wr_any(active)) {\n";
-    text += fmt::format("        real lod = {};\n", at.lod("c.dx", "c.dy"));
+    text += fmt::format("        wr_real lod = {};\n", at.lod("c.dx", "c.dy"));
     const std::string level = at.number("level", [](const Layer& layer) { return parallax_of(layer).level; });
     if (march)
         text += fmt::format(
-            "        vec2 range = wr_scale({0}, reach);\n"
+            "        wr_vec2 range = wr_scale({0}, reach);\n"
             "        int steps = (int){1};\n"
-            "        real step = wr_parallax_step(t, range, lod, steps);\n"
-            "        real h = {2}(t, c.st, range, {3}, lod, step, steps, (int){4}, active);\n",
+            "        wr_real step = wr_parallax_step(t, range, lod, steps);\n"
+            "        wr_real h = {2}(t, c.st, range, {3}, lod, step, steps, (int){4}, active);\n",
             fmt::format(fmt::runtime(project), "c.dx", "c.dy"),
-            at.number("steps", [](const Layer& layer) { return static_cast<double>(parallax_of(layer).steps); }), name, level,
+            at.number("steps", [](const Layer& layer) { return static_cast<double>(parallax_of(layer).steps); }), name,
+            level,
             at.number("refine", [](const Layer& layer) { return static_cast<double>(parallax_of(layer).refine); }));
     else
-        text += fmt::format("        real h = wr_clamp({}(t, c.st, lod));\n", name);
-    text += fmt::format("        real nearer = active ? reach * (h - {}) : (real)(0);\n", level);
+        text += fmt::format("        wr_real h = wr_clamp({}(t, c.st, lod));\n", name);
+    text += fmt::format("        wr_real nearer = active ? reach * (h - {}) : (wr_real)(0);\n", level);
     if (uv)
         text += fmt::format("        uv.st = wr_add(uv.st, wr_scale({}, nearer));\n",
                             fmt::format(fmt::runtime(project), "uv.dx", "uv.dy"));
     text += parallel ? "        p = wr_fma(v, nearer, p);\n"
-                     : "        real k = 1 - nearer / (active ? distance : (real)(1));\n"
+                     : "        wr_real k = 1 - nearer / (active ? distance : (wr_real)(1));\n"
                        "        p = wr_scale(p, k);\n";
     if (l.curved)
         text += turn(at, uv);
@@ -142,11 +139,11 @@ std::string emit(LayerText& at) {
 
 MovedPoint moves(Emitter& emitter, const Layer& layer, bool own_normal) {
     const ParallaxLayer& l = parallax_of(layer);
-    const std::string depth = fmt::format("(real)(WR_BIN_BOX_SLACK * {})", emitter.number(layer, "scale", scale));
+    const std::string depth = fmt::format("(wr_real)(WR_BIN_BOX_SLACK * {})", emitter.number(layer, "scale", scale));
     const auto way = [&](const char* what, double (*share)(const Layer&), const char* distance) {
         return fmt::format(
             "{} * {}", emitter.number(layer, what, share),
-            reach_text(emitter, layer, own_normal ? "fabs(wr_dot(n, v))" : "(real)(0)", depth, distance));
+            reach_text(emitter, layer, own_normal ? "fabs(wr_dot(n, v))" : "(wr_real)(0)", depth, distance));
     };
     return {.nearer = way(
                 "1 - level", [](const Layer& of) { return 1 - parallax_of(of).level; }, "(distance - nearer)"),

@@ -129,7 +129,7 @@ public:
         std::string text = coordinates() + weights();
         for (std::size_t k = 0; k < 3; ++k) {
             text += fmt::format(
-                "        vec2 {1} = wr_v2((real)(0), (real)(0));\n"
+                "        wr_vec2 {1} = wr_v2((wr_real)(0), (wr_real)(0));\n"
                 "        if (wr_any(active & ({0} > 0))) {{\n",
                 kPlanes[k].weight, kPlanes[k].slope);
             if (const auto& own = l_.planes[k])
@@ -145,7 +145,7 @@ private:
     /// Component k of the rows times the vector called `name`, plus `add`.
     std::string row_times(std::size_t k, const std::string& name, const std::string& add) const {
         if (along_axes_)
-            return fmt::format("fma({}.{}, (real)(numbers[{}]), (real)({}))", name, "xyz"[k], rows_ + 4 * k, add);
+            return fmt::format("fma({}.{}, (wr_real)(numbers[{}]), (wr_real)({}))", name, "xyz"[k], rows_ + 4 * k, add);
         return fmt::format("wr_dot({}, wr_v3(numbers + {})) + {}", name, rows_ + 3 * k, add);
     }
 
@@ -162,9 +162,9 @@ private:
             return parts;
         };
         return fmt::format(
-            "        vec3 q = wr_v3({});\n"
-            "        vec3 qx = wr_v3({});\n"
-            "        vec3 qy = wr_v3({});\n",
+            "        wr_vec3 q = wr_v3({});\n"
+            "        wr_vec3 qx = wr_v3({});\n"
+            "        wr_vec3 qy = wr_v3({});\n",
             all("p", true), all("dp_dx", false), all("dp_dy", false));
     }
 
@@ -172,7 +172,7 @@ private:
         const std::string sharpness =
             at_.number("sharpness", [](const Layer& layer) { return triplanar_of(layer).sharpness; });
         if (l_.transform == Placement{})
-            return fmt::format("        vec3 w = wr_triplanar_weights(n, {});\n", sharpness);
+            return fmt::format("        wr_vec3 w = wr_triplanar_weights(n, {});\n", sharpness);
         // The normal in object space: columns of the inverse are rows of the inverse transposed.
         const std::size_t columns = at_.emitter.numbers(at_.layer, "transform", [](const Layer& layer, const auto&) {
             const Placement& placement = triplanar_of(layer).transform;
@@ -182,7 +182,7 @@ private:
             return flat(axes);
         });
         return fmt::format(
-            "        vec3 w = wr_triplanar_weights(wr_normalize(wr_v3(wr_dot(n, wr_v3(numbers + {})), wr_dot(n, "
+            "        wr_vec3 w = wr_triplanar_weights(wr_normalize(wr_v3(wr_dot(n, wr_v3(numbers + {})), wr_dot(n, "
             "wr_v3(numbers + {})), wr_dot(n, wr_v3(numbers + {})))), {});\n",
             columns, columns + 3, columns + 6, sharpness);
     }
@@ -196,7 +196,7 @@ private:
         std::string text = fmt::format(
             "            wr_texture t = wr_texture_at(texels, textures, {});\n"
             "            {} = {};\n",
-            at_.emitter.texture(use, texel_kind(use)), vector ? "vec3 v" : plane.slope,
+            at_.emitter.texture(use, texel_kind(use)), vector ? "wr_vec3 v" : plane.slope,
             sample_text(use, pair_of("q", plane, upper ? "-" : ""),
                         at_.lod(pair_of("qx", plane), pair_of("qy", plane))));
         if (vector) return text + perturbed(k);
@@ -242,9 +242,9 @@ private:
         };
         NoiseSpace space;
         space.axes = [k](const Layer& layer) { return plane_axes(triplanar_of(layer), k); };
-        space.point = fmt::format("wr_v3(wr_dot(p, {}), wr_dot(p, {}), (real)(0))", axis(0), axis(1));
+        space.point = fmt::format("wr_v3(wr_dot(p, {}), wr_dot(p, {}), (wr_real)(0))", axis(0), axis(1));
         const auto length = [&](const char* q) {
-            return fmt::format("wr_v3({0}.{1}, {0}.{2}, (real)(0))", q, "xyz"[plane.s], "xyz"[plane.t]);
+            return fmt::format("wr_v3({0}.{1}, {0}.{2}, (wr_real)(0))", q, "xyz"[plane.s], "xyz"[plane.t]);
         };
         space.footprint = fmt::format("{} * wr_footprint_size({}, {})",
                                       at_.number("tile", [](const Layer& layer) { return triplanar_of(layer).tile; }),
@@ -276,10 +276,10 @@ private:
         for (std::size_t j = 0; j < 3; ++j)
             parts += (j ? ", " : "") +
                      (along_axes_ ? fmt::format("slopes.{} * numbers[{}]", "xyz"[j], rows_ + 4 * j)
-                                  : fmt::format("wr_dot(slopes, wr_v3((real)(numbers[{}]), (real)(numbers[{}]), "
-                                                "(real)(numbers[{}])))",
+                                  : fmt::format("wr_dot(slopes, wr_v3((wr_real)(numbers[{}]), (wr_real)(numbers[{}]), "
+                                                "(wr_real)(numbers[{}])))",
                                                 rows_ + j, rows_ + 3 + j, rows_ + 6 + j));
-        return "        vec3 slopes = wr_triplanar_gradient(w, slope_x, slope_y, slope_z);\n" +
+        return "        wr_vec3 slopes = wr_triplanar_gradient(w, slope_x, slope_y, slope_z);\n" +
                at_.volume(fmt::format("wr_v3({})", parts));
     }
 

@@ -71,7 +71,7 @@ public:
             for (std::size_t k = 0; k < 3; ++k) {
                 if (along_axes_ && i != k) continue;
                 const std::string factor =
-                    fmt::format("(real)(numbers[{}])", first_ + (transposed ? 3 * k + i : 3 * i + k));
+                    fmt::format("(wr_real)(numbers[{}])", first_ + (transposed ? 3 * k + i : 3 * i + k));
                 parts[i] = parts[i].empty() ? fmt::format("{}.{} * {}", v, "xyz"[k], factor)
                                             : fmt::format("fma({}.{}, {}, {})", v, "xyz"[k], factor, parts[i]);
             }
@@ -107,8 +107,8 @@ std::string emit(LayerText& at) {
     at.section.operations += vectors ? kVector : smooth ? kSmooth : kLinear;
     std::string text = fmt::format(
         "        wr_volume v = wr_volume_at(texels, textures, {});\n"
-        "        vec3 start = wr_v3(origins + {});  // the eye, in the grid's index space\n"
-        "        vec3 q = {};\n",
+        "        wr_vec3 start = wr_v3(origins + {});  // the eye, in the grid's index space\n"
+        "        wr_vec3 q = {};\n",
         at.emitter.volume(l, smooth ? TexelKind::volume_smooth : TexelKind::volume), 4 * origin,
         matrix.times("p", false, "start"));
     if (vectors) return text + at.volume("wr_volume_vector(v, q)");

@@ -35,19 +35,20 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const bool depth = geometry.planes.size() == 1;
     std::string text =
         "/// The pixel at (x, y) and `at`, as a neighbour of the one being evaluated, with what u and v hold there.\n"
-        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_frame *frame, long at, long pixels, real x, real y,\n"
-        "                                   vec3 along, " +
+        "wr_fn wr_neighbour wr_neighbour_at(constant const wr_camera *camera, long at, long pixels, wr_real x, wr_real "
+        "y,\n"
+        "                                   wr_vec3 along, " +
         geometry.here + neighbour_planes(geometry, object, true) +
         ", global const float *u, global const float *v)\n{\n";
     text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.step + "\n";
     text += fmt::format(
-        "    mask valid = (x > 0) & (y > 0) & (x < frame->width) & (y < frame->height){};\n"
-        "    vec2 uv = wr_v2(wr_real(wr_load_near(u, at, pixels)), wr_real(wr_load_near(v, at, pixels)));\n"
-        "    vec3 n = wr_v3(wr_real(nx), wr_real(ny), wr_real(nz));\n"
-        "    real object = {};\n"
+        "    wr_mask valid = (x > 0) & (y > 0) & (x < camera->width) & (y < camera->height){};\n"
+        "    wr_vec2 uv = wr_v2(wr_to_real(wr_load_near(u, at, pixels)), wr_to_real(wr_load_near(v, at, pixels)));\n"
+        "    wr_vec3 n = wr_v3(wr_to_real(nx), wr_to_real(ny), wr_to_real(nz));\n"
+        "    wr_real object = {};\n"
         "    return (wr_neighbour){{uv, p, n, object, valid}};\n}}\n\n",
-        depth ? " & (wr_real(z) > 0) & (wr_real(z) < WR_BACKGROUND_DEPTH)" : "",
-        object ? "wr_real(wr_load_near(in_object, at, pixels))" : "0");
+        depth ? " & (wr_to_real(z) > 0) & (wr_to_real(z) < WR_BACKGROUND_DEPTH)" : "",
+        object ? "wr_to_real(wr_load_near(in_object, at, pixels))" : "0");
     return text;
 }
 
@@ -65,16 +66,16 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
     std::string text = fmt::format(
         "        long here = at.in, row = width;\n"
         "        wr_neighbour self = {{{}, wr_zero3(), unturned, {}, {}}};\n"
-        "        vec3 right = wr_v3(frame->dx), down = wr_v3(frame->dy);\n"
-        "        vec3 left = wr_scale(right, (real)(-1)), up = wr_scale(down, (real)(-1));\n",
+        "        wr_vec3 right = wr_v3(camera->dx), down = wr_v3(camera->dy);\n"
+        "        wr_vec3 left = wr_scale(right, (wr_real)(-1)), up = wr_scale(down, (wr_real)(-1));\n",
         uv, object ? "wr_load(in_object, at.in)" : "0", valid);
     const struct {
         const char *before, *after, *name;
     } axes[] = {{"here - 1, in_pixels, at.x - 1, at.y, left", "here + 1, in_pixels, at.x + 1, at.y, right", "dx"},
                 {"here - row, in_pixels, at.x, at.y - 1, up", "here + row, in_pixels, at.x, at.y + 1, down", "dy"}};
     for (const auto& axis : axes)
-        text += use(axis.name, fmt::format("wr_neighbour_at(frame, {}, {}{})", axis.before, geometry.given, planes),
-                    fmt::format("wr_neighbour_at(frame, {}, {}{})", axis.after, geometry.given, planes));
+        text += use(axis.name, fmt::format("wr_neighbour_at(camera, {}, {}{})", axis.before, geometry.given, planes),
+                    fmt::format("wr_neighbour_at(camera, {}, {}{})", axis.after, geometry.given, planes));
     return text;
 }
 
@@ -82,7 +83,7 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
 std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
     section.operations += 200;
     return "        {\n" +
-           neighbours_text(emitter, geometry, section, "in_normal_x, in_normal_x", "wr_v2((real)(0), (real)(0))",
+           neighbours_text(emitter, geometry, section, "in_normal_x, in_normal_x", "wr_v2((wr_real)(0), (wr_real)(0))",
                            "valid",
                            [](const char* axis, const std::string& before, const std::string& after) {
                                return fmt::format(
@@ -98,7 +99,7 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
                     Section& section) {
     section.inputs.insert({"uv.u", "uv.v"});
     std::string text =
-        "        floats u = wr_load_floats(in_uv_u, at.in), v = wr_load_floats(in_uv_v, at.in);\n"
+        "        wr_floats u = wr_load_floats(in_uv_u, at.in), v = wr_load_floats(in_uv_v, at.in);\n"
         "        uv_valid = valid & wr_finite(u) & wr_finite(v);\n";
     const auto all = [&](std::initializer_list<const char*> planes) {
         for (const char* plane : planes)
@@ -111,22 +112,23 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
                 const std::string plane = fmt::format("duv_{}.{}", axis, part);
                 section.inputs.insert(plane);
                 text += fmt::format(
-                    "        floats {1}_{2} = wr_load_floats({0}, at.in);\n"
+                    "        wr_floats {1}_{2} = wr_load_floats({0}, at.in);\n"
                     "        uv_valid = uv_valid & wr_finite({1}_{2});\n"
-                    "        uv.{1}.{3} = wr_real({1}_{2});\n",
+                    "        uv.{1}.{3} = wr_to_real({1}_{2});\n",
                     identifier(plane), axis, part, part[0] == 'u' ? 'x' : 'y');
             }
         }
     } else if (all({"dp_du.x", "dp_du.y", "dp_du.z", "dp_dv.x", "dp_dv.y", "dp_dv.z"})) {
         for (const char* side : {"du", "dv"}) {
-            text += fmt::format("        vec3 dp_{};\n", side);
+            text += fmt::format("        wr_vec3 dp_{};\n", side);
             for (const char axis : {'x', 'y', 'z'}) {
                 const std::string plane = fmt::format("dp_{}.{}", side, axis);
                 section.inputs.insert(plane);
                 text += fmt::format(
-                    "        {{ floats a = wr_load_floats({0}, at.in); uv_valid = uv_valid & wr_finite(a); dp_{1}.{2} "
+                    "        {{ wr_floats a = wr_load_floats({0}, at.in); uv_valid = uv_valid & wr_finite(a); "
+                    "dp_{1}.{2} "
                     "= "
-                    "wr_real(a); }}\n",
+                    "wr_to_real(a); }}\n",
                     identifier(plane), side, axis);
             }
         }
@@ -138,10 +140,10 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
         // Pixels that no layer wants them at are spared the neighbours, unless it is written which have none.
         const bool everywhere = emitter.options.split || !emitter.options.skip || emitter.scene.output.marked;
         const std::string wanted = everywhere ? "" : emit_wanted(emitter, mapped, section);
-        text += wanted + fmt::format("        mask usable = uv_valid{};\n", wanted.empty() ? "" : " & wanted") +
+        text += wanted + fmt::format("        wr_mask usable = uv_valid{};\n", wanted.empty() ? "" : " & wanted") +
                 "        if (wr_any(usable)) {\n" +
                 indented(neighbours_text(
-                    emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_real(u), wr_real(v))", "uv_valid",
+                    emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_to_real(u), wr_to_real(v))", "uv_valid",
                     [](const char* axis, const std::string& before, const std::string& after) {
                         return fmt::format(
                             "        wr_texcoord_change to_{0} = wr_texcoord_difference(self, {1},\n"
@@ -154,10 +156,10 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
         section.operations += 340;
     }
     text +=
-        "        marked += (valid & !uv_valid) ? (real)(4) : (real)(0);\n"
-        "        uv.st = wr_select(uv_valid, wr_v2(wr_real(u), wr_real(v)), wr_v2((real)(0), (real)(0)));\n"
-        "        uv.dx = wr_select(uv_valid, uv.dx, wr_v2((real)(0), (real)(0)));\n"
-        "        uv.dy = wr_select(uv_valid, uv.dy, wr_v2((real)(0), (real)(0)));\n";
+        "        marked += (valid & !uv_valid) ? (wr_real)(4) : (wr_real)(0);\n"
+        "        uv.st = wr_select(uv_valid, wr_v2(wr_to_real(u), wr_to_real(v)), wr_v2((wr_real)(0), (wr_real)(0)));\n"
+        "        uv.dx = wr_select(uv_valid, uv.dx, wr_v2((wr_real)(0), (wr_real)(0)));\n"
+        "        uv.dy = wr_select(uv_valid, uv.dy, wr_v2((wr_real)(0), (wr_real)(0)));\n";
     return text;
 }
 
@@ -167,7 +169,7 @@ std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
     const auto load = [&](const std::string& plane, const std::string& name) {
         section.inputs.insert(plane);
         text += fmt::format(
-            "        floats {0} = wr_load_floats({1}, at.in);\n"
+            "        wr_floats {0} = wr_load_floats({1}, at.in);\n"
             "        vertex_tb_valid = vertex_tb_valid & wr_finite({0});\n",
             name, identifier(plane));
     };
@@ -177,14 +179,15 @@ std::string emit_vertex_frame(const Emitter& emitter, Section& section) {
     for (const char axis : {'x', 'y', 'z'})
         if (!sign) load(fmt::format("bitangent.{}", axis), fmt::format("b{}", axis));
     const auto vector = [](char name) {
-        return fmt::format("wr_select(vertex_tb_valid, wr_v3(wr_real({0}x), wr_real({0}y), wr_real({0}z)), wr_zero3())",
-                           name);
+        return fmt::format(
+            "wr_select(vertex_tb_valid, wr_v3(wr_to_real({0}x), wr_to_real({0}y), wr_to_real({0}z)), wr_zero3())",
+            name);
     };
     section.operations += 60;
     return text + fmt::format(
                       "        vertex_tb = wr_vertex_frame({},\n            {},\n            {});\n"
-                      "        marked += (valid & !vertex_tb_valid & (marked < 4)) ? (real)(4) : (real)(0);\n",
-                      vector('n'), vector('t'), sign ? "wr_real(sign)" : vector('b'));
+                      "        marked += (valid & !vertex_tb_valid & (marked < 4)) ? (wr_real)(4) : (wr_real)(0);\n",
+                      vector('n'), vector('t'), sign ? "wr_to_real(sign)" : vector('b'));
 }
 
 }  // namespace
@@ -198,7 +201,7 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
     section.operations += 300;
     const std::string height = identifier(plane);
     const std::string differences =
-        neighbours_text(emitter, geometry, section, height + ", " + height, "wr_v2(wr_real(height), (real)(0))",
+        neighbours_text(emitter, geometry, section, height + ", " + height, "wr_v2(wr_to_real(height), (wr_real)(0))",
                         "usable", [](const char* axis, const std::string& before, const std::string& after) {
                             return fmt::format(
                                 "        dh.{1} = wr_height_difference(self, {2},\n"
@@ -206,20 +209,21 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
                                 axis, axis[1], before, after);
                         });
     // What belongs to a surface is asked of the frame's own positions and normals, whatever stage this is.
-    return "        vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
-           sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
+    return "        wr_vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
+           sanitize(geometry, "        ") + "        wr_real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
            load_normal("wr_load_floats({}, at.in)", "        ") +
-           "        vec3 unturned = wr_renormalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), "
+           "        wr_vec3 unturned = wr_renormalize(wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), "
+           "wr_to_real(nz)), "
            "n));\n"
-           "        vec3 step_dx, step_dy;\n        {\n        vec3 n = unturned, dp_dx, dp_dy;\n" +
+           "        wr_vec3 step_dx, step_dy;\n        {\n        wr_vec3 n = unturned, dp_dx, dp_dy;\n" +
            face_viewer_text(emitter) + derivative_text(emitter) +
            "        step_dx = dp_dx, step_dy = dp_dy;\n        }\n" +
            fmt::format(
-               "        floats height = wr_load_floats({}, at.in);\n"
-               "        mask usable = active & wr_finite(height);\n{}"
-               "        dh = wr_select(usable, dh, wr_v2((real)(0), (real)(0)));\n"
-               "        real low_bits = marked - 8 * wr_floor(marked / 8);\n"
-               "        marked += (active & !usable & (low_bits < 4)) ? (real)(4) : (real)(0);\n        }}\n",
+               "        wr_floats height = wr_load_floats({}, at.in);\n"
+               "        wr_mask usable = active & wr_finite(height);\n{}"
+               "        dh = wr_select(usable, dh, wr_v2((wr_real)(0), (wr_real)(0)));\n"
+               "        wr_real low_bits = marked - 8 * wr_floor(marked / 8);\n"
+               "        marked += (active & !usable & (low_bits < 4)) ? (wr_real)(4) : (wr_real)(0);\n        }}\n",
                height, differences);
 }
 
@@ -237,9 +241,9 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const
         text += load_normal("wr_load_floats({}, at.in)", "        ");
     }
     text += fmt::format("        valid = {}{};\n", normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid);
-    text += "        marked = valid ? (real)(0) : (real)(1);\n";
-    text += sanitize(geometry, "        ") + "        real x = at.x, y = at.y;\n        " +
-            geometry.position.substr(std::string("vec3 ").size()) + "\n";
+    text += "        marked = valid ? (wr_real)(0) : (wr_real)(1);\n";
+    text += sanitize(geometry, "        ") + "        wr_real x = at.x, y = at.y;\n        " +
+            geometry.position.substr(std::string("wr_vec3 ").size()) + "\n";
     if (wanted.contains("p_low")) {
         text +=
             fmt::format("        wr_pair3 position = {};\n        p = wr_high(position), p_low = wr_low(position);\n",
@@ -250,16 +254,17 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const
     section.writes.insert({"valid", "marked", "p"});
     if (normal) {
         text +=
-            "        n = wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), wr_v3((real)(0), (real)(0), "
-            "(real)(1)));\n"
+            "        n = wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), wr_to_real(nz)), wr_v3((wr_real)(0), "
+            "(wr_real)(0), "
+            "(wr_real)(1)));\n"
             "        n = wr_renormalize(n);\n"
-            "        vec3 unturned = n;\n";
+            "        wr_vec3 unturned = n;\n";
         text += "        {\n" + face_viewer_text(emitter) +
-                "        marked += (valid & away) ? (real)(2) : (real)(0);\n        }\n";
+                "        marked += (valid & away) ? (wr_real)(2) : (wr_real)(0);\n        }\n";
         section.writes.insert("n");
         section.operations += 30;
     } else if (wanted.contains("dp_dx")) {
-        text += fmt::format("        vec3 n = wr_scale(wr_normalize({}), (real)(-1));\n", view_text(emitter));
+        text += fmt::format("        wr_vec3 n = wr_scale(wr_normalize({}), (wr_real)(-1));\n", view_text(emitter));
     }
     if (wanted.contains("base")) {
         text += "        base = n;\n";

@@ -31,7 +31,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     for (PlannedTexture& texture : std::span(emitter.plan.textures).subspan(known_textures)) texture.layer = who;
     std::string condition = "wr_any(active)";
     if (emitter.options.switches) condition = fmt::format("{} != 0 && {}", text.strength(), condition);
-    section.body = mask + (emitter.options.skip ? "" : "        active = (mask)(-1);\n") +
+    section.body = mask + (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
     return section;
 }

@@ -23,10 +23,10 @@ Section emit_resolve(Emitter& emitter, const StageEnd& stage) {
         section.writes.insert("marked");
         section.operations += 24;
         bend =
-            "        vec3 flat = n, bumped = wr_resolve(n, g);\n"
-            "        mask sound = wr_sound(bumped);\n"
+            "        wr_vec3 flat = n, bumped = wr_resolve(n, g);\n"
+            "        wr_mask sound = wr_sound(bumped);\n"
             "        n = wr_select(bent & sound, bumped, n);\n"
-            "        marked += (bent & !sound & (marked < 8)) ? (real)(8) : (real)(0);\n";
+            "        marked += (bent & !sound & (marked < 8)) ? (wr_real)(8) : (wr_real)(0);\n";
     }
     if (stage.volume) {
         sums += " | wr_nonzero(dh_dp)";
@@ -42,13 +42,13 @@ Section emit_resolve(Emitter& emitter, const StageEnd& stage) {
     if (!bend.empty()) {
         // What nothing bends stays as it is, bit by bit.
         text = emitter.options.skip
-                   ? fmt::format("        mask bent = valid & ({});\n        if (wr_any(bent)) {{\n", sums)
-                   : "        mask bent = valid;\n        {\n";
+                   ? fmt::format("        wr_mask bent = valid & ({});\n        if (wr_any(bent)) {{\n", sums)
+                   : "        wr_mask bent = valid;\n        {\n";
         text += bend;
         if (stage.more)
             text += "        {\n" + face_viewer_text(emitter) + "        }\n        n = wr_select(bent, n, flat);\n";
         if (stage.derivatives && stage.wants_derivatives)
-            text += "        vec3 flat_dx = dp_dx, flat_dy = dp_dy;\n" + derivatives +
+            text += "        wr_vec3 flat_dx = dp_dx, flat_dy = dp_dy;\n" + derivatives +
                     "        dp_dx = wr_select(bent, dp_dx, flat_dx), dp_dy = wr_select(bent, dp_dy, flat_dy);\n";
         text += "        }\n";
     }
@@ -72,14 +72,14 @@ Section emit_lighting(Emitter& emitter) {
         return true;
     };
     std::string& text = section.body;
-    text = fmt::format("        vec3 v = {};\n", to_viewer_text(emitter));
+    text = fmt::format("        wr_vec3 v = {};\n", to_viewer_text(emitter));
     text += planes({"albedo.r", "albedo.g", "albedo.b"})
-                ? "        vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
+                ? "        wr_vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
                   "                            wr_mask_channel(wr_load(in_albedo_g, at.in)),\n"
                   "                            wr_mask_channel(wr_load(in_albedo_b, at.in)));  // [0,1]; NaN is 0\n"
-                : "        vec3 albedo = wr_v3(lighting->albedo);\n";
-    text += planes({"roughness"}) ? "        real roughness = wr_load(in_roughness, at.in);\n"
-                                  : "        real roughness = lighting->roughness;\n";
+                : "        wr_vec3 albedo = wr_v3(lighting->albedo);\n";
+    text += planes({"roughness"}) ? "        wr_real roughness = wr_load(in_roughness, at.in);\n"
+                                  : "        wr_real roughness = lighting->roughness;\n";
     const double lights = static_cast<double>(lighting.lights.size());
     if (!ratio) {
         text +=
@@ -93,20 +93,20 @@ Section emit_lighting(Emitter& emitter) {
     section.reads.insert("base");
     section.operations = 40 + 125 * lights;
     text +=
-        "        vec3 old;\n"
+        "        wr_vec3 old;\n"
         "        lit = wr_light_surface(p, n, base, v, albedo, roughness, lighting, lights, &old);\n";
     const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
     for (const auto& part : parts)
         text += fmt::format(
-            "        floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
-            "        mask seen_{1} = wr_finite(raw_{1});\n"
-            "        real {1} = wr_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
+            "        wr_floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
+            "        wr_mask seen_{1} = wr_finite(raw_{1});\n"
+            "        wr_real {1} = wr_to_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
             "        lit.{0} = valid ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
             part.axis, part.color);
     if (emitter.scene.output.marked) {
         section.reads.insert("marked");
         section.writes.insert("marked");
-        text += "        marked += (seen_r & seen_g & seen_b) ? (real)(0) : (real)(16);\n";
+        text += "        marked += (seen_r & seen_g & seen_b) ? (wr_real)(0) : (wr_real)(16);\n";
     }
     return section;
 }
@@ -124,7 +124,7 @@ Section emit_output(Emitter& emitter, bool bumped) {
     const auto store3 = [&](const std::string& role, const std::string& value) {
         section.reads.insert(value);
         for (const char axis : {'x', 'y', 'z'})
-            store(fmt::format("{}.{}", role, axis), fmt::format("valid ? {}.{} : (real)(0)", value, axis));
+            store(fmt::format("{}.{}", role, axis), fmt::format("valid ? {}.{} : (wr_real)(0)", value, axis));
     };
     if (emitter.options.volume_gradient) {
         store3("volume_gradient", "dh_dp");
@@ -135,9 +135,9 @@ Section emit_output(Emitter& emitter, bool bumped) {
         section.inputs.insert({"normal.x", "normal.y", "normal.z"});
         // An invalid pixel keeps what it had, unless that was not finite.
         for (const char axis : {'x', 'y', 'z'}) {
-            text += fmt::format("        floats n{0} = wr_load_floats(in_normal_{0}, at.in);\n", axis);
+            text += fmt::format("        wr_floats n{0} = wr_load_floats(in_normal_{0}, at.in);\n", axis);
             store(fmt::format("normal.{}", axis),
-                  fmt::format("valid ? n.{0} : wr_real(wr_valid_or(n{0}, wr_finite(n{0}), 0))", axis));
+                  fmt::format("valid ? n.{0} : wr_to_real(wr_valid_or(n{0}, wr_finite(n{0}), 0))", axis));
         }
     }
     if (output.surface_gradient) {

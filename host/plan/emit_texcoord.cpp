@@ -63,7 +63,7 @@ namespace {
 std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
-    std::string text = "        real m = 1;\n";
+    std::string text = "        wr_real m = 1;\n";
     const auto factor = [&](const std::string& value) {
         text += fmt::format("        m *= {};\n", value);
         section.operations += 2;
@@ -71,19 +71,20 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
     if (mask.object) {
         emitter.need(who, {"object"});
         section.inputs.insert("object");
-        factor(fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
-                           emitter.number(layer, "mask object", [](const Layer& l) { return l.mask.object.value(); })));
+        factor(
+            fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
+                        emitter.number(layer, "wr_mask object", [](const Layer& l) { return l.mask.object.value(); })));
     }
     if (mask.cryptomatte) {
         emitter.need(who, {"crypto.id0", "crypto.coverage0"});
         // A float holds half of a hash at a time.
         const std::size_t hash =
-            emitter.numbers(layer, "mask cryptomatte", [who](const Layer& l, const NumberSource& s) {
+            emitter.numbers(layer, "wr_mask cryptomatte", [who](const Layer& l, const NumberSource& s) {
                 const std::uint32_t id = cryptomatte_hash(s.cryptomatte, l.mask.cryptomatte.value(), who);
                 return std::vector<double>{static_cast<double>(id >> 16), static_cast<double>(id & 0xffff)};
             });
         text += fmt::format(
-            "        real covered = 0;\n        uint object_hash = (uint)numbers[{}] << 16 | (uint)numbers[{}];\n",
+            "        wr_real covered = 0;\n        uint object_hash = (uint)numbers[{}] << 16 | (uint)numbers[{}];\n",
             hash, hash + 1);
         for (int rank = 0; emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
             const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
@@ -112,7 +113,7 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
         return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
     };
     if (std::ranges::any_of(layers, anywhere)) return {};
-    std::string text = "        mask wanted = 0;\n";
+    std::string text = "        wr_mask wanted = 0;\n";
     for (const Layer* layer : layers) {
         text += "        {\n" + mask_of_planes(emitter, *layer, section) +
                 (layer->mask.invert ? "        m = 1 - m;\n" : "") + "        wanted = wanted | (m != 0);\n        }\n";
@@ -134,18 +135,18 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
             "        wr_texture t = wr_texture_at(texels, textures, {});\n"
             "        m *= wr_mask_channel(wr_texture_sample1(t, wr_repeat(c.st.x), wr_repeat(c.st.y), {}));\n        "
             "}}\n",
-            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(real)(0)");
+            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(wr_real)(0)");
         section.operations += 60;
     }
     if (mask.invert) text += "        m = 1 - m;\n";
     if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion: unknown is not "outside"
-        text += "        m = uv_valid ? m : (real)(0);\n";
+        text += "        m = uv_valid ? m : (wr_real)(0);\n";
     if (mask.channel && mask.invert) {
         const std::string value = fmt::format("wr_load({}, at.in)", identifier("channel:" + *mask.channel));
-        text += fmt::format("        m = {0} == {0} ? m : (real)(0);\n", value);
+        text += fmt::format("        m = {0} == {0} ? m : (wr_real)(0);\n", value);
     }
     section.reads.insert("valid");
-    text += "        mask active = valid & (m != 0);\n";
+    text += "        wr_mask active = valid & (m != 0);\n";
     return text;
 }
 

@@ -15,17 +15,19 @@ std::string grow_text(const Emitter& emitter, const MovedPoints& moved) {
     if (moved.text.empty()) return kIndent + "box = wr_grow(box, valid, p, axes);\n";
     const bool parallel = emitter.available.camera == CameraKind::parallel;
     std::string text = fmt::format(
-        "{0}vec3 v = {1};\n"
-        "{0}real distance = sqrt(wr_dot(p, p)), nearer = 0, farther = 0;\n{2}",
+        "{0}wr_vec3 v = {1};\n"
+        "{0}wr_real distance = sqrt(wr_dot(p, p)), nearer = 0, farther = 0;\n{2}",
         kIndent, to_viewer_text(emitter),
-        moved.by_normal
-            ? kIndent + "vec3 n = wr_normalize(wr_select(valid, wr_v3(wr_real(nx), wr_real(ny), wr_real(nz)), v));\n"
-            : "");
+        moved.by_normal ? kIndent +
+                              "wr_vec3 n = wr_normalize(wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), "
+                              "wr_to_real(nz)), v));\n"
+                        : "");
     text += moved.text;
     for (const char* way : {"nearer", "-farther"})
-        text += fmt::format("{}box = wr_grow(box, valid, {}, axes);\n", kIndent,
-                            parallel ? fmt::format("wr_fma(v, {}, p)", way)
-                                     : fmt::format("wr_scale(p, distance > 0 ? 1 - ({}) / distance : (real)(1))", way));
+        text +=
+            fmt::format("{}box = wr_grow(box, valid, {}, axes);\n", kIndent,
+                        parallel ? fmt::format("wr_fma(v, {}, p)", way)
+                                 : fmt::format("wr_scale(p, distance > 0 ? 1 - ({}) / distance : (wr_real)(1))", way));
     return text;
 }
 
@@ -40,7 +42,7 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     for (const std::string& plane : inputs)
         planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
     source += fmt::format(
-        R"(kernel void wr_bin_tiles(constant const wr_frame *frame, constant const WR_SCALAR *numbers,
+        R"(kernel void wr_bin_tiles(constant const wr_camera *camera, constant const WR_SCALAR *numbers,
     constant const WR_SCALAR *axes, global float *bounds,
     uint tiles, uint supers,
 {}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
@@ -52,8 +54,8 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     for (uint row = corner.y; row < min(corner.y + WR_TILE_HEIGHT, rows); ++row)
         for (uint column = corner.x; column < min(corner.x + WR_TILE_WIDTH, width); column += WR_LANES) {{
             long here = (long)in_first + (long)row * width + column, pixels = in_pixels;
-            real x = wr_lane_number() + (real)(column + WR_R(0.5)), y = (real)(first_row + row + WR_R(0.5));
-{}            mask valid = {}{} & (x < width);
+            wr_real x = wr_lane_number() + (wr_real)(column + WR_R(0.5)), y = (wr_real)(first_row + row + WR_R(0.5));
+{}            wr_mask valid = {}{} & (x < width);
 {}            {}
 {}        }}
     wr_store_bounds(box, bounds, tiles, tile);

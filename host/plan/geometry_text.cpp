@@ -21,18 +21,18 @@ GeometryText geometry_text(const Emitter& emitter) {
         const bool parallel = available.camera == CameraKind::parallel;
         return {{"depth"},
                 "wr_valid_depth(z)",
-                parallel              ? "vec3 p = wr_parallel_position(frame, x, y, wr_real(z));"
-                : available.ray_depth ? "vec3 p = wr_scale(wr_normalize(wr_ray(frame, x, y)), wr_real(z));"
-                                      : "vec3 p = wr_scale(wr_ray(frame, x, y), wr_real(z));",
-                parallel || available.ray_depth ? "wr_along_ray(p, d)" : "wr_real(z)",
+                parallel              ? "wr_vec3 p = wr_parallel_position(camera, x, y, wr_to_real(z));"
+                : available.ray_depth ? "wr_vec3 p = wr_scale(wr_normalize(wr_ray(camera, x, y)), wr_to_real(z));"
+                                      : "wr_vec3 p = wr_scale(wr_ray(camera, x, y), wr_to_real(z));",
+                parallel || available.ray_depth ? "wr_along_ray(p, d)" : "wr_to_real(z)",
                 parallel              ? ""
-                : available.ray_depth ? "wr_distant_position_pairs(frame, x, y, wr_real(z))"
-                                      : "wr_position_pairs(frame, x, y, wr_real(z))",
-                "vec3 ray, real from",
-                parallel ? "wr_v3(frame->forward), wr_real(z)" : "wr_ray(frame, at.x, at.y), wr_real(z)",
-                parallel              ? "vec3 p = wr_fma(ray, wr_real(z) - from, along);"
-                : available.ray_depth ? "vec3 p = wr_distant_step(ray, along, from, wr_real(z));"
-                                      : "vec3 p = wr_planar_step(ray, along, from, wr_real(z));"};
+                : available.ray_depth ? "wr_distant_position_pairs(camera, x, y, wr_to_real(z))"
+                                      : "wr_position_pairs(camera, x, y, wr_to_real(z))",
+                "wr_vec3 ray, wr_real from",
+                parallel ? "wr_v3(camera->forward), wr_to_real(z)" : "wr_ray(camera, at.x, at.y), wr_to_real(z)",
+                parallel              ? "wr_vec3 p = wr_fma(ray, wr_to_real(z) - from, along);"
+                : available.ray_depth ? "wr_vec3 p = wr_distant_step(ray, along, from, wr_to_real(z));"
+                                      : "wr_vec3 p = wr_planar_step(ray, along, from, wr_to_real(z));"};
     }
     const std::string file = emitter.scene.gbuffer.file.string(), here = file.empty() ? "" : file + ": ";
     if (wanted == Geometry::automatic && !emitter.has("depth") && !emitter.has("position.x"))
@@ -43,21 +43,21 @@ GeometryText geometry_text(const Emitter& emitter) {
                  {"position.x", "position.y", "position.z"});
     return {{"position.x", "position.y", "position.z"},
             "wr_valid_position(px, py, pz)",
-            "vec3 p = wr_eye_relative(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)));",
+            "wr_vec3 p = wr_eye_relative(camera, wr_v3(wr_to_real(px), wr_to_real(py), wr_to_real(pz)));",
             "wr_along_ray(p, d)",
-            "wr_eye_relative_pairs(frame, wr_v3(wr_real(px), wr_real(py), wr_real(pz)))",
-            "vec3 from",
-            "wr_v3(wr_real(px), wr_real(py), wr_real(pz))",
-            "vec3 p = wr_sub(wr_v3(wr_real(px), wr_real(py), wr_real(pz)), from);"};
+            "wr_eye_relative_pairs(camera, wr_v3(wr_to_real(px), wr_to_real(py), wr_to_real(pz)))",
+            "wr_vec3 from",
+            "wr_v3(wr_to_real(px), wr_to_real(py), wr_to_real(pz))",
+            "wr_vec3 p = wr_sub(wr_v3(wr_to_real(px), wr_to_real(py), wr_to_real(pz)), from);"};
 }
 
 std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent) {
     std::string text;
     if (geometry.planes.size() == 1) {
-        text += fmt::format("{}floats z = {};\n", indent, fmt::format(fmt::runtime(load), "in_depth"));
+        text += fmt::format("{}wr_floats z = {};\n", indent, fmt::format(fmt::runtime(load), "in_depth"));
     } else {
         for (const char axis : {'x', 'y', 'z'})
-            text += fmt::format("{}floats p{} = {};\n", indent, axis,
+            text += fmt::format("{}wr_floats p{} = {};\n", indent, axis,
                                 fmt::format(fmt::runtime(load), fmt::format("in_position_{}", axis)));
     }
     return text;
@@ -66,7 +66,7 @@ std::string load_geometry(const GeometryText& geometry, const std::string& load,
 std::string load_normal(const std::string& load, const std::string& indent) {
     std::string text;
     for (const char axis : {'x', 'y', 'z'})
-        text += fmt::format("{}floats n{} = {};\n", indent, axis,
+        text += fmt::format("{}wr_floats n{} = {};\n", indent, axis,
                             fmt::format(fmt::runtime(load), fmt::format("in_normal_{}", axis)));
     return text;
 }
@@ -80,29 +80,29 @@ std::string sanitize(const GeometryText& geometry, const std::string& indent) {
 }
 
 const char* view_text(const Emitter& emitter) {
-    return emitter.available.camera == CameraKind::parallel ? "wr_v3(frame->forward)" : "p";
+    return emitter.available.camera == CameraKind::parallel ? "wr_v3(camera->forward)" : "p";
 }
 
 const char* to_viewer_text(const Emitter& emitter) {
     return emitter.available.camera == CameraKind::parallel
-               ? "wr_normalize(wr_scale(wr_v3(frame->forward), (real)(-1)))"
-               : "wr_normalize(wr_scale(p, (real)(-1)))";
+               ? "wr_normalize(wr_scale(wr_v3(camera->forward), (wr_real)(-1)))"
+               : "wr_normalize(wr_scale(p, (wr_real)(-1)))";
 }
 
 std::string derivative_text(const Emitter& emitter, const std::string& along) {
     const bool exact = emitter.geometry_precision() == Precision::exact;
     if (emitter.available.camera != CameraKind::pinhole)
-        return fmt::format("        wr_screen_derivatives_general{}(frame, n, p, at.x, at.y, &dp_dx, &dp_dy);\n",
+        return fmt::format("        wr_screen_derivatives_general{}(camera, n, p, at.x, at.y, &dp_dx, &dp_dy);\n",
                            exact ? "_exact" : "");
-    const std::string ray = "        vec3 d = wr_ray(frame, at.x, at.y);\n";
+    const std::string ray = "        wr_vec3 d = wr_ray(camera, at.x, at.y);\n";
     if (exact)
-        return ray + "        wr_screen_derivatives_exact(frame, n, " + along + ", at.x, at.y, &dp_dx, &dp_dy);\n";
-    return ray + "        wr_screen_derivatives(frame, n, d, " + along + ", at.x, at.y, &dp_dx, &dp_dy);\n";
+        return ray + "        wr_screen_derivatives_exact(camera, n, " + along + ", at.x, at.y, &dp_dx, &dp_dy);\n";
+    return ray + "        wr_screen_derivatives(camera, n, d, " + along + ", at.x, at.y, &dp_dx, &dp_dy);\n";
 }
 
 std::string face_viewer_text(const Emitter& emitter) {
     return fmt::format(
-        "        mask away;\n"
+        "        wr_mask away;\n"
         "        n = wr_face_viewer(n, {}, &away);\n",
         view_text(emitter));
 }

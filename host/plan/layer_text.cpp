@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "wrinkle/error.h"
-
 namespace wrinkle {
 
 TexelKind texel_kind(const TextureUse& use) {
@@ -34,12 +32,12 @@ std::string LayerText::strength() { return number("scale", signed_scale); }
 const char* LayerText::exactly() const { return emitter.precision(layer) == Precision::exact ? "_exact" : ""; }
 
 std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
-    return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(real)(0)";
+    return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(wr_real)(0)";
 }
 
 std::string LayerText::located(const TextureUse& use, TexelKind kind) {
     std::string text = emit_texcoord(emitter, layer, own_uv, use.wrap, who, section);
-    if (own_uv(layer).source == UvSource::aov) text += "        m = uv_valid ? m : (real)(0);\n";
+    if (own_uv(layer).source == UvSource::aov) text += "        m = uv_valid ? m : (wr_real)(0);\n";
     return text +
            fmt::format("        wr_texture t = wr_texture_at(texels, textures, {});\n", emitter.texture(use, kind));
 }
@@ -59,7 +57,7 @@ std::string LayerText::slopes(const std::string& function, const std::string& ar
     section.writes.insert("g");
     section.operations += *exactly() ? kExactSlopes : kSlopes;
     return fmt::format(
-        "        vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
+        "        wr_vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
         "        g = wr_fma(bump, m * {}, g);\n",
         function, exactly(), arguments, strength());
 }
@@ -71,13 +69,15 @@ std::string LayerText::volume(const std::string& gradient) {
     return fmt::format("        {0} = wr_fma({1}, m * {2}, {0});\n", sum, gradient, strength());
 }
 
-const UvMapping& own_uv(const Layer& layer) {
+const UvMapping* find_uv(const Layer& layer) {
     return std::visit(
-        [&](const auto& bump) -> const UvMapping& {
-            if constexpr (requires { bump.uv; })
-                return bump.uv;
+        [](const auto& bump) -> const UvMapping* {
+            if constexpr (requires { bump.uv.has_value(); })
+                return bump.uv ? &*bump.uv : nullptr;
+            else if constexpr (requires { bump.uv; })
+                return &bump.uv;
             else
-                throw Error(layer_label(layer) + ": its kind has no uv");
+                return nullptr;
         },
         layer.bump);
 }

@@ -27,7 +27,7 @@ struct LayerText {
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
     /// Declares coordinates `c`, by the layer's own mapping, texture `t` and its sample.
-    std::string textured(const TextureUse& use, const char* declared = "vec2 slope");
+    std::string textured(const TextureUse& use, const char* declared = "wr_vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind);
     /// Adds the surface gradient of a height, of the kernel function of that name and its arguments after dp_dx, dp_dy.
@@ -36,8 +36,10 @@ struct LayerText {
     std::string volume(const std::string& gradient);
 };
 
-/// The mapping of a layer whose kind has one.
-const UvMapping& own_uv(const Layer& layer);
+/// The mapping of a layer; null where it has none.
+const UvMapping* find_uv(const Layer& layer);
+/// The mapping of a layer that has one.
+inline const UvMapping& own_uv(const Layer& layer) { return *find_uv(layer); }
 
 /// How the texels of `use` are stored.
 TexelKind texel_kind(const TextureUse& use);

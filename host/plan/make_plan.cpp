@@ -9,6 +9,18 @@ namespace wrinkle {
 
 namespace {
 
+/// The user's own functions, told apart by their files' names and lines.
+std::string user_text(const Emitter& emitter) {
+    std::string text;
+    for (const auto& [function, parameters] : emitter.user_parameters) text += parameters + "\n";
+    for (const auto& [file, content] : emitter.user_files) {
+        std::string name;
+        for (const char c : file) name += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+        text += fmt::format("#line 1 \"{}\"\n{}\n#line 1 \"evaluate.cl\"\n", name, content);
+    }
+    return text;
+}
+
 /// The layers between two resolves.
 struct Stage {
     std::vector<Section> layers;
@@ -98,9 +110,9 @@ std::vector<std::string> scratch_planes(const Value& value) {
 
 std::string declare(const Value& value) {
     const std::string type = value.type;
-    const std::string zero = type == "vec3"          ? "wr_zero3()"
+    const std::string zero = type == "wr_vec3"       ? "wr_zero3()"
                              : type == "wr_texcoord" ? "{{0, 0}, {0, 0}, {0, 0}}"
-                             : type == "wr_frame_tb" ? "{wr_zero3(), wr_zero3()}"
+                             : type == "wr_tangents" ? "{wr_zero3(), wr_zero3()}"
                                                      : "0";
     return fmt::format("    {} {} = {};\n", type, value.name, zero);
 }
@@ -125,20 +137,20 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         if (!split || (!loaded.contains(value.name) && !stored.contains(value.name))) continue;
         const std::vector<std::string> planes = scratch_planes(value);
         kernel.scratch.insert(kernel.scratch.end(), planes.begin(), planes.end());
-        const bool truth = std::string(value.type) == "mask";
+        const bool truth = std::string(value.type) == "wr_mask";
         for (std::size_t i = 0; i < planes.size(); ++i) {
             const std::string part = fmt::format("{}{}", value.name, value.parts[i]);
             const std::string from = fmt::format("wr_load_real(scratch_{}, at.out)", planes[i]);
             if (loaded.contains(value.name)) load += fmt::format("    {} = {};\n", part, truth ? from + " != 0" : from);
             if (stored.contains(value.name))
                 store += fmt::format("    wr_store({}, scratch_{}, at.out);\n",
-                                     truth ? part + " ? (real)(1) : (real)(0)" : part, planes[i]);
+                                     truth ? part + " ? (wr_real)(1) : (wr_real)(0)" : part, planes[i]);
         }
     }
 
     std::string& text = plan.source;
     text += fmt::format(
-        "kernel void {}(constant const wr_frame *frame, constant const WR_SCALAR *numbers,\n"
+        "kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *numbers,\n"
         "    constant const WR_SCALAR *origins, global const float *restrict texels, global const uint *restrict "
         "textures,\n"
         "    global const wr_projector *restrict decals, constant const wr_lighting *lighting, constant const wr_light "
@@ -190,7 +202,7 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     // Few streams of stores: the write-combining buffers hold them all, so even half lines may go past the cache.
     constexpr std::size_t kFewOutputs = 3;
     plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
-                  ("#include \"wrinkle.clh\"\n\n" + emitter.helpers + bins);
+                  ("#include \"wrinkle.clh\"\n\n" + user_text(emitter) + emitter.helpers + bins);
 
     // Not where kernels add to planes, since blocks may share pixels, nor where neighbours lie a lane further.
     plan.blocks = plan.projectors > 0 && !plan.neighbours && !options.split;

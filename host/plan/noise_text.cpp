@@ -158,7 +158,7 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
                              4 * add_lattice(at, l, of, space, true));
     }
     return fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {});\n", fractal_text(at, l, of, space.pairs),
-                       points, at.layer.footprint ? space.footprint : "(real)(0)", space.active) +
+                       points, at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active) +
            shape_text(at, l.shape, of);
 }
 

@@ -37,6 +37,9 @@ struct Emitter {
     const PlanOptions& options;
     Plan plan;
     std::string helpers;  ///< functions that precede the kernels
+    /// The user's own kernel text by the file that it is from, and what stands before it: a structure of parameters by
+    /// the name of the function that takes it.
+    std::map<std::string, std::string> user_files{}, user_parameters{};
 
     /// The variant that a layer of the scene is to have.
     Precision precision(const Layer& layer) const;

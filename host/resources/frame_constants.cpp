@@ -9,7 +9,7 @@ namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_frame) == 73 * sizeof(double) && sizeof(wr_light) == 12 * sizeof(double) &&
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 12 * sizeof(double) &&
                   sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
@@ -46,16 +46,16 @@ Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_w
 
 }  // namespace
 
-void split_constants(wr_frame& frame) {
+void split_constants(wr_camera& frame) {
     put_low(frame.d0_low, frame.d0), put_low(frame.dx_low, frame.dx), put_low(frame.dy_low, frame.dy);
     put_low(frame.c0_low, frame.c0), put_low(frame.c1_low, frame.c1), put_low(frame.c2_low, frame.c2);
     put_low(frame.c3_low, frame.c3), put_low(frame.w_low, frame.w);
 }
 
-wr_frame camera_constants(const Camera& camera, Size size) {
+wr_camera camera_constants(const Camera& camera, Size size) {
     const Mat4 to_world = inverse(camera.view);
     const Vec3 eye = eye_of(to_world);
-    wr_frame frame{};
+    wr_camera frame{};
     frame.width = size.width;
     frame.height = size.height;
     for (std::size_t k = 0; k < 3; ++k) {

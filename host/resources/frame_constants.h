@@ -14,7 +14,7 @@ namespace wrinkle {
 /// Everything kernels read that depends on the camera or is a number of the scene, in double; positions relative to the
 /// eye.
 struct FrameConstants {
-    wr_frame frame{};
+    wr_camera frame{};
     std::vector<double> numbers;  ///< of the scene, as planned
     std::vector<double> origins;  ///< 4 numbers an origin
     std::vector<wr_projector> decals;
@@ -24,10 +24,10 @@ struct FrameConstants {
 };
 
 /// A camera, and the frame that it fills, as kernels read them.
-wr_frame camera_constants(const Camera& camera, Size size);
+wr_camera camera_constants(const Camera& camera, Size size);
 
 /// Sets the members that end in _low: what a float leaves out of the member named without it.
-void split_constants(wr_frame& frame);
+void split_constants(wr_camera& frame);
 
 /// A projector as kernels read it, without its masks; `scale` is signed.
 wr_projector projector_constants(const Projector& row, const ProjectedImage& image, double scale, const Vec3& eye);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -142,6 +143,17 @@ struct ConstantLayer {
     Vec3 gradient{};
 };
 
+/// A bump of the user's own: a function in OpenCL C, over the types of kernels/ (kernels/sources/dual.clh has arithmetic
+/// that differentiates). It is native code on a CPU: run nobody's but who you trust.
+struct KernelLayer {
+    static constexpr const char* kind = "kernel";
+    std::filesystem::path file{};
+    std::string function{};  ///< wr_dual FUNCTION(wr_bump_point at, FUNCTION_parameters k)
+    std::map<std::string, double> parameters{};  ///< members of k, in the order of their names
+    bool over_uv = false;           ///< its gradient is along s and t of `uv`, instead of x, y and z of the world
+    std::optional<UvMapping> uv{};  ///< gives it texture coordinates
+};
+
 enum class ParallaxMode { offset, march };  ///< one step [Welsh 2004], or a search for where the ray meets the heights
 
 /// Moves the point that later layers see along the ray, to a height field over the surface [Mik20 4.3]. It bumps
@@ -186,7 +198,7 @@ struct Layer {
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
     std::variant<NormalMapLayer, HeightMapLayer, HeightChannelLayer, TriplanarLayer, NoiseLayer, DecalLayer,
                  DecalsLayer, ConstantLayer, ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer,
-                 VolumeLayer>
+                 VolumeLayer, KernelLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

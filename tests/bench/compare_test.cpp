@@ -22,7 +22,7 @@ Run run_of(std::vector<Measurement> measurements, double copy = 30) {
     return run;
 }
 
-/// What compare() prints, and whether it found errors no larger.
+/// What compare() prints, and what it returns: whether no error grew.
 std::pair<std::string, bool> compared(const Run& before, const Run& now) {
     testing::internal::CaptureStdout();
     const bool kept = compare(before, now);

@@ -1,4 +1,4 @@
-// bench/kernels: every file builds, on every number of lanes, with the kernels as they are now.
+// bench/kernels: every file still builds with the current kernels, on every number of lanes.
 #include <gtest/gtest.h>
 
 #include <filesystem>

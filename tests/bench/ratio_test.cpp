@@ -21,7 +21,8 @@ TEST(Ratio, IsSaidWhenTheEffectIsLargerThanTheSpread) {
 }
 
 TEST(Ratio, ComparesRoundsOfOneRace) {
-    // A neighbour slows whole rounds down: the medians and their spreads say nothing, the rounds say 1.5.
+    // Another user of the machine slows whole rounds down. Medians and spreads are useless then, but in every round the
+    // ratio is about 1.5.
     const Timing slow = timing({1.5, 3.0, 1.6, 4.5, 1.4}), fast = timing({1.0, 2.0, 1.1, 3.0, 0.95});
     EXPECT_GT(slow.spread, 0.5);
     const Ratio r = ratio(slow, fast);
@@ -30,8 +31,8 @@ TEST(Ratio, ComparesRoundsOfOneRace) {
 }
 
 TEST(Ratio, LiesWithinTheBoundsOfItsMedian) {
-    // Sign test: of 100 runs the 40th and 61st hold the median with 96.5%, of 11 the 2nd and 10th, of 9 the outermost
-    // with 99.6%.
+    // By the sign test, the median lies between the 40th and 61st of 100 runs with 96.5% confidence, between the 2nd
+    // and 10th of 11 runs, and between the outermost of 9 runs with 99.6%.
     EXPECT_EQ(median_bounds({4, 9, 2, 7, 5, 3, 8, 1, 6}), (std::pair{1.0, 9.0}));
     EXPECT_EQ(median_bounds({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}), (std::pair{2.0, 10.0}));
     EXPECT_EQ(median_bounds({3, 1, 2}), (std::pair{1.0, 3.0}));
@@ -41,7 +42,8 @@ TEST(Ratio, LiesWithinTheBoundsOfItsMedian) {
 }
 
 TEST(Ratio, TakesPartsOfARaceAsItsMeasurements) {
-    // The machine is in one state for half of 1000 rounds, in another for the rest: many rounds do not make it surer.
+    // The machine is in one state for half of 1000 rounds and in another for the rest. So many rounds must not narrow
+    // the bounds, as they are not independent.
     std::vector<double> slow(1000, 3.0);
     std::fill_n(slow.begin(), 500, 1.0);
     const Ratio r = ratio(timing(slow), timing(std::vector<double>(1000, 1.0)));

@@ -1,8 +1,9 @@
-// Error budgets of scenes: kept on every scene of data/scenes, against the double evaluator of the references.
+// Error budgets: every scene of data/scenes keeps its own, by the double-precision evaluator of the references.
 #include <algorithm>
 #include <limits>
 
 #include "budget/choose_precision.h"
+#include "budget/error_sample.h"
 #include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "tests/io/files.h"
@@ -25,8 +26,8 @@ Scene on_small_frame(const std::string& name, const HostFrame& frame) {
     return scene;
 }
 
-/// Degrees between what a run wrote and the truth: the largest over all valid pixels but those without a usable
-/// neighbour, at the horizon, where kernels and references may decide otherwise.
+/// The largest angle, in degrees, between what a run wrote and the truth, over all valid pixels. Those without a usable
+/// neighbour, at the horizon, are left out: there kernels and references may decide differently.
 double largest_error(const fs::path& file, const Truth& truth) {
     const GBufferReader reader(file);
     Pixels got;
@@ -131,7 +132,8 @@ struct TwoNoises {
 TEST(Budget, ChoosesTheCheapestThatTheTableAllows) {
     const TwoNoises made;
     EXPECT_EQ(made.chosen(1), "geometry standard, layers standard");
-    EXPECT_EQ(made.chosen(0.62), "geometry standard, layers standard but exact \"coarse\"");  // 0.1 for 2 ns
+    // An error of 0.1 for 2 ns.
+    EXPECT_EQ(made.chosen(0.62), "geometry standard, layers standard but exact \"coarse\"");
     EXPECT_EQ(made.chosen(0.1105), "geometry exact, layers standard but exact \"fine\", \"coarse\"");
     EXPECT_EQ(made.chosen(0.112), "geometry standard, layers standard but exact \"fine\", \"coarse\"");
     EXPECT_EQ(made.chosen(0.109), "everything in double");
@@ -146,7 +148,7 @@ TEST(Budget, NamesWhatMissedAndEndsInDouble) {
     ErrorStats bad;
     bad.max = 7, bad.samples = 10;
     EXPECT_FALSE(budget.accept(bad));
-    budget.raise(bad, [](const PrecisionChoice& choice) {  // the fine noise does it, and is not enough
+    budget.raise(bad, [](const PrecisionChoice& choice) {  // raising the fine noise helps most, but not enough
         ErrorStats stats;
         stats.max = choice.precision.layers[0] == Precision::exact ? 3 : 7;
         return stats;
@@ -205,7 +207,7 @@ TEST(ErrorSample, NeedsDoublePrecision) {
     } catch (const Error& error) { expect_mentions(error.what(), {"max_error", "cl_khr_fp64", "--device"}); }
 }
 
-/// A pass that tilts too much: every sampled pixel tells by how much, whichever they are.
+/// A pass whose normals are slightly wrong: the sample must measure by how much, whichever pixels are drawn.
 TEST(ErrorSample, MeasuresAnglesOfASeededSample) {
     const HostFrame frame = small_frame();
     Scene scene, wrong;
@@ -225,14 +227,14 @@ TEST(ErrorSample, MeasuresAnglesOfASeededSample) {
         const GBufferReader reader(scene.gbuffer.file);
         PhaseClock clock;
         FrameRun run(pass.impl(), reader, clock);
-        run.measure(errors, frame.frame.camera);
+        run.check_bands(errors, frame.frame.camera);
         run.run();
         return errors.stats();
     };
     const ErrorStats all = measured(std::numeric_limits<int>::max(), 1), some = measured(1000, 1);
     EXPECT_NEAR(all.max, largest, 1e-4);
     EXPECT_GT(all.median, 0.01);
-    EXPECT_LE(some.samples, 1008u);  // whole work-items, without background
+    EXPECT_LE(some.samples, 1008u);  // rounded up to whole work-items; background does not count
     EXPECT_GT(some.samples, 300u);
     EXPECT_LE(some.max, all.max);
     EXPECT_NEAR(some.median, all.median, 0.1);

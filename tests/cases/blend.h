@@ -24,7 +24,8 @@ inline Cases blend_cases(const std::string& column, V (*blend)(V, V)) {
         c.add("blend, seed " + std::to_string(seed), true);
         c.in("a", a), c.in("b", b), c.out("normal", want);
     }
-    for (const V a : {V{0, 0, 1}, V{0, 0, -1}, V{}, V{1, 0, 0}, V{-1, 0, 0}})  // finite, whatever is left
+    // Blends cancel: only a finite answer is asked for.
+    for (const V a : {V{0, 0, 1}, V{0, 0, -1}, V{}, V{1, 0, 0}, V{-1, 0, 0}})
         for (const V b : {V{0, 0, 1}, V{0, 0, -1}, V{}, V{1, 0, 0}}) {
             c.add("blend of an extreme", true);
             c.in("a", a), c.in("b", b), c.out("normal", V{std::numeric_limits<real>::quiet_NaN(), 0, 0});
@@ -57,8 +58,9 @@ inline Cases reorient_cases() {
     return c;
 }
 
-/// Blends of surface gradients tangent to n, with slopes from 1e-6 to 10, where nothing is limited; and of gradients of
-/// any length, where only a finite answer is asked for. The bound of the sum grows where its terms cancel.
+/// Blends of surface gradients tangent to n. Regular: slopes from 1e-6 to 10, which no limit touches. Hard: gradients
+/// of any length, for which only a finite answer is asked. Where the terms of the sum cancel, a larger error is
+/// allowed.
 inline Cases combine_cases(reference::Blending how) {
     Cases c{.name = "combined gradients"};
     const auto add = [&](V n, V g, V detail) { c.in("n", n), c.in("g", g), c.in("detail", detail); };
@@ -73,7 +75,7 @@ inline Cases combine_cases(reference::Blending how) {
         };
         const V g = tangent(), detail = tangent(), want = combine_gradients(how, unit, g, detail);
         const bool rnm = how == reference::Blending::rnm;
-        const real upright = 1 - dot(g, detail);  // what RNM divides by; negative: inwards, which has no gradient
+        const real upright = 1 - dot(g, detail);  // RNM divides by it; negative: the result points inwards, no gradient
         const real steep = rnm ? (1 + length(g) * length(detail)) / upright / upright
                                : std::hypot(real{1}, length(g)) * std::hypot(real{1}, length(detail));
         const real terms = (length(g) + length(detail)) * steep;
@@ -94,7 +96,7 @@ inline Cases combine_cases(reference::Blending how) {
     return c;
 }
 
-/// Perturbed normals mixed with others, from the same to next to opposite, by any share.
+/// Perturbed normals mixed, by any share, with normals that range from the same to nearly the opposite.
 inline Cases combine_towards_cases() {
     Cases c{.name = "mixed normals"};
     for (unsigned seed = 1; seed <= 300; ++seed) {

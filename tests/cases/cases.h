@@ -8,7 +8,7 @@
 #include "functions/column_kernel.h"
 #include "tests/reference/golden.h"
 
-/// Inputs of a concept with what is expected of it; shared by tests and benchmarks.
+/// Inputs of a kernel function with the right answers, for tests and benchmarks.
 namespace wrinkle::cases {
 
 using reference::GoldenTable;
@@ -18,19 +18,21 @@ using reference::Vec2;
 using V = Vec<real>;
 using V2 = Vec2<real>;
 
-/// Inputs as kernels read them: "n.x", "n.y", "n.z" make a vec3 n; "st.x", "st.y" a vec2 st; "k" a real.
+/// Columns of inputs by name: "n.x", "n.y" and "n.z" are the vector n of a kernel, "st.x" and "st.y" the pair st, "k" a
+/// number.
 using Columns = std::map<std::string, std::vector<float>>;
 
-/// Rows of inputs, the answers in long double (scalars and pairs in the first components), and what to call a row.
+/// Rows of inputs, their answers in long double (numbers and pairs in the first components of a vector), and the rows'
+/// labels for messages.
 struct Cases {
     std::string name{};
     Columns inputs{};
     std::vector<std::string> labels{};
     std::vector<bool> hard{};
-    std::map<std::string, std::vector<V>> want{};  ///< NaN or Inf: only a finite answer is asked for
-    std::vector<real> allowance{};        ///< factor on the bounds of a row; 1 unless a docblock says otherwise
-    std::vector<real> angle_allowance{};  ///< ... on bounds in degrees; empty: as allowance
-    ColumnData data{};                    ///< what a row reads beside its inputs, such as a camera
+    std::map<std::string, std::vector<V>> want{};  ///< NaN or Inf: any finite answer will do
+    std::vector<real> allowance{};  ///< for each row, a factor on the documented bounds; 1 unless its maker says why
+    std::vector<real> angle_allowance{};  ///< the same for bounds in degrees; empty: as allowance
+    ColumnData data{};                    ///< what rows read beside their inputs, such as a camera
 
     std::size_t size() const { return labels.size(); }
 
@@ -46,7 +48,8 @@ struct Cases {
     void out(const std::string& answer, V2 v) { want[answer].push_back({v.x, v.y, 0}); }
     void out(const std::string& answer, real v) { want[answer].push_back({v, 0, 0}); }
 
-    /// "regular", or what makes a hard row hard: of golden rows their category, else what precedes the seed.
+    /// "regular", or what makes a hard row hard. It is the first part of the row's label: of golden rows their
+    /// category, of random ones the words before the seed.
     std::string category(std::size_t row) const {
         if (!hard[row]) return "regular";
         std::string text = labels[row];
@@ -70,7 +73,7 @@ inline void add_golden_row(Cases& cases, const GoldenTable& table, std::size_t r
     for (const std::string& v : vectors) cases.in(v, table.vec(row, v));
 }
 
-/// Random numbers that are exact floats.
+/// Random numbers that a float holds exactly, so that kernels and references get the same inputs.
 class Random {
 public:
     explicit Random(unsigned seed) : engine_(seed) {}
@@ -79,10 +82,10 @@ public:
         return static_cast<float>(low + (high - low) * real(engine_() - engine_.min()) / real(engine_.max()));
     }
     int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
-    /// 10 to a random exponent.
+    /// 10 to the power of a random exponent.
     real magnitude(real low, real high) { return static_cast<float>(std::pow(10.0L, uniform(low, high))); }
     V box(real size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-    /// Unit to float32 accuracy, as G-buffers store normals.
+    /// A vector that is unit but for the rounding to float, as the normals of G-buffers are.
     V unit() {
         for (;;) {
             const V v = box(1);

@@ -11,7 +11,7 @@ inline void put(double (&to)[3], V v) {
     to[0] = static_cast<double>(v.x), to[1] = static_cast<double>(v.y), to[2] = static_cast<double>(v.z);
 }
 
-/// Listing 15: slopes d along the projector's axes X and Y, projected onto n.
+/// Listing 15: the gradient of slopes d along the projector's axes X and Y, projected onto the surface of normal n.
 inline Cases projector_golden_cases() {
     Cases c{.name = "listing15_decal"};
     const GoldenTable table = reference::golden("listing15_decal");

@@ -5,7 +5,7 @@
 
 namespace wrinkle::cases {
 
-/// Points near and far, gradients flat to nearly parallel to n.
+/// Points near and far, with gradients from tangent to the surface to nearly along its normal.
 inline Cases displace_cases() {
     Cases c{.name = "displace"};
     for (unsigned seed = 1; seed <= 300; ++seed) {
@@ -23,7 +23,7 @@ inline Cases displace_cases() {
     return c;
 }
 
-/// Any footprint, curvature and height; bases without an area.
+/// Any footprint, curvature and height; also footprints without an area.
 inline Cases displace_curved_cases() {
     Cases c{.name = "displace curved"};
     for (unsigned seed = 1; seed <= 420; ++seed) {

@@ -3,7 +3,7 @@
 #include "functions/tables.h"
 #include "tests/cases/cases.h"
 
-/// How far results are from the answers of cases.
+/// The errors of results, by the answers of the cases.
 namespace wrinkle::cases {
 
 inline real error_of(ErrorMeasure measure, V got, V want, V n) {
@@ -20,13 +20,13 @@ inline real error_of(ErrorMeasure measure, V got, V want, V n) {
     return 0;
 }
 
-/// The error of a row, without its allowance. `n` is only asked for where the measure needs it.
+/// The error of a row, not yet divided by the row's allowance. Cases need an input n only for measures that use it.
 inline real error_of(ErrorMeasure measure, const Cases& cases, const std::string& answer, V got, std::size_t row) {
     const V n = measure == ErrorMeasure::resolved_degrees ? cases.vec(row, "n") : V{};
     return error_of(measure, got, cases.want.at(answer)[row], n);
 }
 
-/// The columns from `first` on as a vector; scalars and pairs in the first components.
+/// `components` columns of a row, beginning with `first`, as a vector. The other components are 0.
 inline V value_at(const std::vector<std::vector<double>>& columns, std::size_t first, std::size_t components,
                   std::size_t row) {
     V v;
@@ -35,7 +35,8 @@ inline V value_at(const std::vector<std::vector<double>>& columns, std::size_t f
     return v;
 }
 
-/// The kernel of a variant. In double, normals are made unit first: they are only unit to the digits of a float.
+/// The kernel of a variant. In double it normalises its normals first, as those of the cases are unit only to the
+/// digits of a float.
 inline ColumnKernel kernel_of(const Function& function, const FunctionVariant& variant, bool fp64) {
     ColumnKernel kernel = column_kernel(function, variant);
     if (fp64)

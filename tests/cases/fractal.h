@@ -12,9 +12,9 @@ namespace wrinkle::cases {
 
 constexpr int fractal_octaves = 8;
 
-/// Fractals of Perlin's noise seen from an eye far from the origin, with and without a footprint. Constants of a row:
-/// 4 numbers for each of 16 octaves, the eye on its lattice and the frequency; then gain, octaves and, ridged, offset
-/// and feedback. Rows near a kink are left out.
+/// Fractals of Perlin's noise, seen by an eye far from the origin, with and without a footprint. The constants of a row
+/// are 4 numbers for each of 16 octaves (the eye's position on the octave's lattice, the frequency), then gain and
+/// octaves, and for ridged ones offset and feedback. Rows near a kink of the function are left out.
 inline Cases fractal_cases(reference::Octaves kind) {
     using reference::Octaves;
     Cases c{.name = "fractals of noise"};
@@ -27,8 +27,9 @@ inline Cases fractal_cases(reference::Octaves kind) {
         if (seed % 4 == 1) f.lacunarity = random.uniform(1.5L, 2.5L);
         const V eye = random.box(1000), p = random.box(3);
         const real footprint = seed % 2 ? 0 : random.magnitude(-3, 0);
-        // The bounds are for amplitudes times frequencies that add up to 1, of octaves that are added. An octave's
-        // error: the noise's own, and half an ulp of the lattice coordinate (< 512) times the second derivative.
+        // The documented bounds are for octaves that are added, whose amplitudes times frequencies sum up to 1. An
+        // octave's error is that of the noise itself, and half an ulp of the lattice coordinate (< 512) times the
+        // second derivative.
         real size = 0, frequency = f.frequency, amplitude = 1, nearest = 1;
         std::vector<double> lattice;
         for (int i = 0; i < fractal_octaves; ++i, frequency *= f.lacunarity, amplitude *= f.gain) {
@@ -53,8 +54,8 @@ inline Cases fractal_cases(reference::Octaves kind) {
     return c;
 }
 
-/// Values around 0 to 1, beyond, and at the ends; gradients of any size. `constants`: the shape's numbers.
-/// `unsure`: how much more the error may be at a value.
+/// Values within 0 to 1, at the ends and beyond, with gradients of any size. `constants`: the numbers of the shape.
+/// `unsure`: by which factor the error at a value may be larger.
 template <class Shape>
 Cases shape_cases(
     const std::vector<double>& constants, const Shape& shape,

@@ -9,8 +9,8 @@ namespace wrinkle::cases {
 using reference::Address;
 using Pyramid = reference::Pyramid<real>;
 
-/// Adds a texture as kernels find it: rows with a border texel on each side, a border row below and above, by level.
-/// `texel(level, channel, x, y)` may be asked one texel beyond the level.
+/// Adds a texture in the layout that kernels read: level by level, each with a border of one texel on every side.
+/// `texel(level, channel, x, y)` is called for the border, too.
 template <class Texel>
 void add_texture(ColumnData& data, const Pyramid& pyramid, int channels, const Texel& texel) {
     std::vector<std::uint32_t>& table = data.textures;
@@ -22,7 +22,7 @@ void add_texture(ColumnData& data, const Pyramid& pyramid, int channels, const T
     table[words + WR_TEXTURE_LEVELS] = static_cast<std::uint32_t>(pyramid.levels.size());
     if (texels.size() < 4) texels.resize(4);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
-        texels.resize(texels.size() - 4);  // the last pair of a row may be read as four floats
+        texels.resize(texels.size() - 4);  // four more floats, as the last pair of a row may be read with its neighbour
         table[words + WR_TEXTURE_OFFSETS + l] = static_cast<std::uint32_t>(texels.size());
         for (int y = -1; y <= pyramid.levels[l].height; ++y)
             for (int x = -1; x <= pyramid.levels[l].width; ++x)
@@ -32,7 +32,7 @@ void add_texture(ColumnData& data, const Pyramid& pyramid, int channels, const T
     }
 }
 
-/// Adds the heights, then their Sobel slopes per unit of texture coordinate.
+/// Adds two textures: the heights, and their Sobel slopes per unit of texture coordinate.
 inline void add_heights(ColumnData& data, const Pyramid& height, Address wrap) {
     add_texture(data, height, 1, [&](const auto& level, int, int x, int y) { return level.at(0, x, y, wrap); });
     add_texture(data, height, 2, [&](const auto& level, int c, int x, int y) {
@@ -58,7 +58,8 @@ inline std::map<std::string, Pyramid> golden_textures() {
     return textures;
 }
 
-/// Listing 16, repeated: the lod; slopes at that lod and at `lod_in`, which are rows of their own.
+/// Listing 16 on a texture that repeats: the level of detail, the slopes at that level, and the slopes at a level that
+/// is given (`lod_in`).
 inline Cases height_slope_cases(bool smooth) {
     Cases c{.name = "listing16_deriv_from_heightmap"};
     c.data.constants_per_row = 1;  // the texture
@@ -89,8 +90,8 @@ inline Cases height_slope_cases(bool smooth) {
     return c;
 }
 
-/// Listing 7, repeated: footprints from a billionth of the texture to several of it, across texels and mips. What is
-/// allowed goes with the texels that a pixel spans.
+/// Listing 7 on a texture that repeats, with footprints from a billionth of the texture to several textures. The error
+/// allowed grows with the number of texels that a pixel spans.
 inline Cases height_tap_cases() {
     Cases c{.name = "height taps"};
     c.data.constants_per_row = 1;
@@ -114,7 +115,7 @@ inline Cases height_tap_cases() {
         const real far = seed % 5 == 0 ? 1e5L : 2;
         V2 st{random.uniform(-far, far), random.uniform(-far, far)};
         const int w = height.levels[0].width, h = height.levels[0].height;
-        if (seed % 3 == 0)  // beside the border of texels, so that steps cross it
+        if (seed % 3 == 0)  // so close to the border between two texels that steps cross it
             st = {static_cast<float>((random.below(w) + 0.5L) / w + random.uniform(-1, 1) * size / 2),
                   static_cast<float>((random.below(h) + 0.5L) / h + random.uniform(-1, 1) * size / 2)};
         const reference::TexDerivative<real> d{step(), step()};
@@ -129,7 +130,7 @@ inline Cases height_tap_cases() {
     return c;
 }
 
-/// The same clamped, on a picture of odd size, also at its edges and corners.
+/// Listing 16 on a clamped picture of odd size, also at its edges and corners.
 inline Cases clamped_slope_cases() {
     Cases c{.name = "clamped height slopes"};
     Random texels(7);

@@ -18,9 +18,9 @@ inline Lighting test_lighting() {
     return lighting;
 }
 
-/// A surface under a sun, a point and a spot light, with its own normal n and with another one, m; constants: one
-/// wr_lighting and its lights. Regular: rough surfaces.
-/// Hard: highlights of smooth ones, grazing views, surfaces at a light or behind all.
+/// A surface under a sun, a point and a spot light, with its own normal n and with another normal m. The constants are
+/// one wr_lighting and its lights. Regular: rough surfaces. Hard: highlights of smooth ones, grazing views, surfaces at
+/// a light's position and surfaces that face away from all lights.
 inline Cases lighting_cases() {
     Cases c{.name = "lighting"};
     const Lighting lighting = test_lighting();
@@ -37,7 +37,7 @@ inline Cases lighting_cases() {
         const V p = hard && seed % 10 == 0 ? Random::rounded(V{2, -1, 3} + random.unit() * random.magnitude(-6, 0))
                                            : random.box(4);
         V v = random.unit(), n = random.unit();
-        if (hard && seed % 3 == 0)  // the mirror direction of the sun, or near it
+        if (hard && seed % 3 == 0)  // at or near the sun's mirror direction
             n = Random::rounded(normalize(normalize(v + V{0, 0, 1}) + random.unit() * random.magnitude(-5, -1)));
         if (hard && seed % 3 == 1) v = Random::rounded(normalize(cross(n, v) + n * random.magnitude(-7, -2)));
         const reference::Surface<real> surface{

@@ -5,8 +5,8 @@
 
 namespace wrinkle::cases {
 
-/// Points of meshes whose tangents the standard's implementation computed, interpolated and not normalised, with a
-/// tangent-space normal: what a renderer without surface gradients gets.
+/// Points of meshes with tangents by the implementation of the mikkTSpace standard, interpolated and not normalised,
+/// and a tangent-space normal at each. The answer is the normal that a renderer without surface gradients computes.
 inline Cases mikktspace_cases(const std::string& name) {
     Cases c{.name = name};
     const GoldenTable table = reference::golden(name);

@@ -12,7 +12,8 @@ inline void put(Cases& c, const std::string& name, const Pixel& p) {
     c.in(name + "_object", real{*p.object}), c.in(name + "_valid", p.valid ? 1 : 0);
 }
 
-/// A pixel about `direction` steps of dp from one whose normal is (0, 0, 1), or one that `spoil` 0 to 3 sets apart.
+/// A neighbour of a pixel at the origin with normal (0, 0, 1), about `direction` steps of dp away. With `spoil` 0 to 3
+/// it is invalid, of another object, or beyond a break of normals or of depth.
 inline Pixel neighbour_on_plane(Random& random, V dp, real direction, int spoil) {
     Pixel p{true,
             3.0f,
@@ -26,7 +27,7 @@ inline Pixel neighbour_on_plane(Random& random, V dp, real direction, int spoil)
     return p;
 }
 
-/// The rule for heights: the next pixel, else the one before; none across a break.
+/// Which neighbour a height is differenced with: the next pixel, else the one before; none across a break.
 inline Cases height_neighbour_cases() {
     Cases c{.name = "neighbours of heights"};
     for (unsigned seed = 1; seed <= 600; ++seed) {
@@ -51,7 +52,8 @@ inline Cases height_neighbour_cases() {
     return c;
 }
 
-/// The rule for normals: both neighbours, one, or none; normals of any length that is not taken for noise.
+/// Which neighbours a normal is differenced with: both, one, or none. Normals have any length that is not taken for
+/// noise.
 inline Cases normal_neighbour_cases() {
     Cases c{.name = "neighbours of normals"};
     for (unsigned seed = 1; seed <= 600; ++seed) {
@@ -73,7 +75,7 @@ inline Cases normal_neighbour_cases() {
     return c;
 }
 
-/// The neighbour rule: combinations of usable, broken and unequal neighbours.
+/// The rule for texture coordinates, with all combinations of usable, broken and unequal neighbours.
 inline Cases neighbour_cases() {
     Cases c{.name = "neighbours"};
     for (unsigned seed = 1; seed <= 600; ++seed) {
@@ -112,7 +114,7 @@ inline Cases neighbour_cases() {
             return p;
         };
         const Pixel here{seed % 50 != 0, 3.0f, {0, 0, 1}, {}, {0.5L, 0.5L}};
-        const real fold = seed % 11 == 0 ? 0 : seed % 7 == 0 ? -1 : 1;  // beyond a seam that mirrors the coordinates
+        const real fold = seed % 11 == 0 ? 0 : seed % 7 == 0 ? -1 : 1;  // -1: a seam mirrors the coordinates
         const Pixel before = make(-1, random.below(3) == 0, 1), after = make(1, random.below(3) == 0, fold);
         auto backward = uv_difference(here, before, dp), forward = uv_difference(here, after, dp);
         if (!here.valid) backward = forward = std::nullopt;
@@ -128,8 +130,8 @@ inline Cases neighbour_cases() {
     return c;
 }
 
-/// Changes along steps over surfaces that curve away: steps shorter than dp, turned, out of the plane; at right angles,
-/// as seen edge on, and next to parallel.
+/// Changes of texture coordinates along steps to neighbours on curved surfaces. Steps are shorter than dp, turned, or
+/// lead out of the tangent plane; the two steps are at right angles, or nearly parallel, as on surfaces seen edge on.
 inline Cases texcoord_changes_cases() {
     Cases c{.name = "derivatives from changes"};
     using Change = reference::UvChange<real>;
@@ -150,9 +152,9 @@ inline Cases texcoord_changes_cases() {
             return Change{{static_cast<float>(uv.x), static_cast<float>(uv.y)}, Random::rounded(step)};
         };
         Change to_x = change(dp_dx, dp_dy), to_y = change(dp_dy, dp_dx);
-        if (kept) to_y.step = Random::rounded(to_x.step * real{2});  // no gradient: the changes as they are
+        if (kept) to_y.step = Random::rounded(to_x.step * real{2});  // parallel: the changes are returned as they are
         const auto [dx, dy] = reference::uv_derivatives(to_x, to_y, dp_dx, dp_dy);
-        // Each derivative sums both changes, by factors as large as the steps are short and skewed.
+        // Each derivative is a sum of both changes. The shorter and the more skewed the steps, the larger its factors.
         const V normal = normalize(cross(dp_dx, dp_dy));
         const real first = length(to_x.step), second = length(to_y.step);
         const real area = std::abs(dot(normal, cross(to_x.step, to_y.step)));

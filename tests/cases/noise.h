@@ -15,7 +15,8 @@ inline void add_noise(Cases& c, const std::string& label, bool hard, V p, const 
     c.out("value", want.value), c.out("gradient", want.gradient);
 }
 
-/// Points near the origin, regular, and all over the lattice up to `far`, with their cells' faces, edges and corners.
+/// Calls `add` for points. Regular ones lie near the origin; hard ones up to `far`, and on faces, edges and corners of
+/// cells.
 template <class Add>
 void each_lattice_point(real far, const Add& add) {
     for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -30,7 +31,7 @@ void each_lattice_point(real far, const Add& add) {
     }
 }
 
-/// Perlin's noise of 2002, with the golden rows, or of 1985.
+/// Perlin's noise of 2002, with the golden rows; with `cubic`, that of 1985.
 inline Cases perlin_cases(bool cubic) {
     Cases c{.name = cubic ? "perlin1985" : "perlin2002_demo_dnoise"};
     if (!cubic) {
@@ -45,8 +46,8 @@ inline Cases perlin_cases(bool cubic) {
     return c;
 }
 
-/// Simplex noise: golden rows, then points up to 1e6 and periods up to the longest. Constants of a row: its periods and
-/// its angle.
+/// Simplex noise: golden rows, then points up to 1e6 with periods up to `longest_period`. The constants of a row are
+/// its periods and its angle.
 inline Cases simplex_cases(int longest_period) {
     Cases c{.name = "psrdnoise3_glsl"};
     c.data.constants_per_row = 4;
@@ -70,8 +71,8 @@ inline Cases simplex_cases(int longest_period) {
     return c;
 }
 
-/// Points whose gradient does not jump within `margin`. The digits of a point within its cell limit the direction to a
-/// feature point nearby: the bounds are for 0.1 cells and more, and grow nearer by.
+/// Points around which the gradient does not jump within `margin`. The direction to a feature point is only as exact as
+/// the point's coordinates: the documented bounds hold at 0.1 cells and more, and larger errors are allowed nearer by.
 inline Cases worley_cases(reference::Cell feature, real margin = 1e-5L) {
     Cases c{.name = "worley"};
     each_lattice_point(4e6L, [&](const std::string& label, bool hard, V p) {
@@ -82,7 +83,8 @@ inline Cases worley_cases(reference::Cell feature, real margin = 1e-5L) {
     return c;
 }
 
-/// Points whose second nearest feature point lies beyond the 27 cells around them: 1 in 5000 of those near a face.
+/// Points whose second nearest feature point lies outside of the 27 cells around them, which is so for 1 in 5000 of the
+/// points near a face.
 inline Cases worley_search_cases() {
     Cases c{.name = "worley, where 27 cells are not enough"};
     for (const V p : {V{132.078125L, -91.1875L, -143.0078125L}, V{116.359375L, 43.21875L, -197.9921875L},

@@ -5,8 +5,9 @@
 
 namespace wrinkle::cases {
 
-/// Objects turned, sheared, mirrored and scaled; hard ones by up to 1e3 : 1 along the axes and 1e+-12 in all. Gradients
-/// are tangent to n. Errors grow with how much longer the terms of a sum are than the sum.
+/// Objects that are turned, sheared, mirrored and scaled. Hard ones are scaled by up to 1e3 : 1 between their axes, and
+/// by 1e-12 to 1e12 in all. Gradients are tangent to n. Larger errors are allowed where the terms of a sum are much
+/// longer than the sum.
 inline Cases object_scale_cases() {
     Cases c{.name = "objects of any scale"};
     c.data.constants_per_row = 9;
@@ -29,7 +30,7 @@ inline Cases object_scale_cases() {
             for (const V& l : lengths) largest = std::max(largest, length(l));
             return largest / length(cofactors[0] + cofactors[1] + cofactors[2]);
         };
-        // How the map stretches the directions of n and of the bump.
+        // By how much the map stretches the directions of the normal and of the bump.
         const real growth = std::max({real{1}, terms(bumped), terms(unit), terms(g / length(g))});
         c.add("object scale, seed " + std::to_string(seed), hard, growth);
         for (const V column : {m.x, m.y, m.z})

@@ -27,7 +27,7 @@ inline Cases project_to_texture_cases() {
         const SurfaceDerivatives d = random_derivatives(random);
         answer(d, random.unit());
     }
-    for (unsigned seed = 1; seed <= 20; ++seed) {  // no area on the screen: no direction in the texture
+    for (unsigned seed = 1; seed <= 20; ++seed) {  // a footprint without area: there is no direction in the texture
         Random random(seed);
         SurfaceDerivatives d = random_derivatives(random);
         d.dp_dy = seed % 2 ? V{} : d.dp_dx;
@@ -55,7 +55,7 @@ inline Cases texture_offset_cases() {
     for (unsigned seed = 1; seed <= 320; ++seed) {
         Random random(seed);
         SurfaceDerivatives d = random_derivatives(random);
-        if (seed > 300) d.st.dy = seed % 2 ? V2{0, 0} : d.st.dx;  // determinant 0: no step
+        if (seed > 300) d.st.dy = seed % 2 ? V2{0, 0} : d.st.dx;  // degenerate coordinates: there is no step
         const real size = random.magnitude(-6, 1);
         c.add("texture offset, any footprint, seed " + std::to_string(seed), true);
         answer(d.dp_dx, d.dp_dy, d.st,
@@ -64,8 +64,8 @@ inline Cases texture_offset_cases() {
     return c;
 }
 
-/// Smooth hills, and texels of noise that a ray may graze. An answer is asked for only where rays next to the ray find
-/// nearly the same: between two peaks the slightest rounding decides.
+/// Smooth hills, and noise that a ray may graze. An answer is compared only where neighbouring rays find nearly the
+/// same point: where a ray grazes a peak, rounding decides what it hits.
 inline Cases parallax_march_cases() {
     Cases c{.name = "parallax march"};
     c.data.constants_per_row = 4;  // the texture, steps, refine, level
@@ -75,7 +75,7 @@ inline Cases parallax_march_cases() {
         for (int x = 0; x < 64; ++x)
             hills.texels.push_back(
                 static_cast<float>(0.5L + 0.35L * std::sin(x * 0.19634954L) * std::cos(y * 0.19634954L)));
-    for (int i = 0; i < 16 * 16; ++i) rough.texels.push_back(texels.uniform(-0.1L, 1.1L));  // beyond [0,1] too
+    for (int i = 0; i < 16 * 16; ++i) rough.texels.push_back(texels.uniform(-0.1L, 1.1L));  // some beyond [0,1]
     const Pyramid pyramids[] = {reference::build_pyramid(hills, 1), reference::build_pyramid(rough, 1)};
     for (const Pyramid& pyramid : pyramids)
         add_texture(c.data, pyramid, 1,
@@ -110,7 +110,7 @@ inline Cases parallax_march_cases() {
     return c;
 }
 
-/// Curvatures of all sizes, also ones that turn the normal over.
+/// Curvatures of all sizes, also such that would turn the normal away from the viewer.
 inline Cases parallax_normal_cases() {
     Cases c{.name = "parallax normal"};
     for (unsigned seed = 1; seed <= 300; ++seed) {
@@ -122,7 +122,8 @@ inline Cases parallax_normal_cases() {
         const V2 pixels{random.uniform(-20, 20), random.uniform(-20, 20)};
         c.add("parallax normal, seed " + std::to_string(seed), hard);
         const V moved = reference::parallax_normal(normalize(n), a, b, pixels, n);
-        const V view = Random::rounded(normalize(moved) * 0.9L + random.unit());  // clear of the edge, on both sides
+        // Never so close to a right angle that rounding decides.
+        const V view = Random::rounded(normalize(moved) * 0.9L + random.unit());
         c.in("n", n), c.in("dn_dx", a), c.in("dn_dy", b), c.in("pixels", pixels), c.in("view", view);
         const V want = reference::parallax_normal(normalize(n), a, b, pixels, view);
         const bool clear = std::abs(dot(normalize(view), normalize(n + a * pixels.x + b * pixels.y))) > 1e-5L;

@@ -5,10 +5,11 @@
 
 namespace wrinkle::cases {
 
-/// Surface gradients of perturbed normals, listing 5: golden rows, then any angle to n, facing either way, any length.
+/// Surface gradients of perturbed normals, listing 5: golden rows, then normals of any length and at any angle to n,
+/// also such that face away.
 inline Cases perturbed_normal_cases() {
     Cases c{.name = "listing05_perturbed_normal"};
-    const auto answer = [&](V n, V v) {  // digits of n . v, and so of the gradient's length, cancel
+    const auto answer = [&](V n, V v) {  // where n . v cancels, so do digits of the gradient's length
         const V unit = normalize(n);
         const real cosine = std::abs(dot(unit, normalize(v)));
         c.angle_allowance.push_back(1);
@@ -32,7 +33,7 @@ inline Cases perturbed_normal_cases() {
         c.allowance.pop_back();
         answer(n, Random::rounded(v * random.magnitude(-30, 30)));
     }
-    for (const V v : {V{}, V{3, 0, 0}, V{0, -1e30L, 0}}) {  // none, and exactly in the tangent plane
+    for (const V v : {V{}, V{3, 0, 0}, V{0, -1e30L, 0}}) {  // no direction, and directions exactly in the tangent plane
         c.add("perturbed normal without a cosine", true);
         c.allowance.pop_back();
         answer({0, 0, 1}, v);

@@ -6,7 +6,7 @@
 
 namespace wrinkle::cases {
 
-/// A row as kernels read it, of an image of heights, at the eye's origin.
+/// A row of a table as the struct that kernels read, for an image of heights and an eye at the origin.
 inline wr_projector projector_record(const Projector& row, const reference::DecalBox<real>& box) {
     wr_projector out{};
     const auto put = [](double(&to)[3], V v) {
@@ -28,8 +28,8 @@ inline wr_projector projector_record(const Projector& row, const reference::Deca
     return out;
 }
 
-/// Boxes, ellipsoids and cones of any orientation and size around points inside and out, with every kind of fade. A
-/// cone's coordinates magnify errors by the square of its image's size.
+/// Points in and around boxes, ellipsoids and cones of any orientation and size, with every kind of fade. Near a cone's
+/// apex its image is small, which magnifies errors of coordinates by the square of that.
 inline Cases projector_cases() {
     Cases c{.name = "projectors"};
     c.data.records_per_row = sizeof(wr_projector) / sizeof(double);
@@ -64,7 +64,7 @@ inline Cases projector_cases() {
         const bool on_edge = std::abs(border - 1) < 1e-3L / (shrunk * shrunk) || std::abs(largest(q) - 1) < 1e-3L ||
                              (cone && std::abs((1 - q.z) / 2 - near) < 1e-3L) || std::abs(cosine) < 1e-4L ||
                              (a0 == a1 && (std::abs(cosine - a0) < 1e-4L || std::abs(cosine + a0) < 1e-4L));
-        if (on_edge) continue;  // either answer is right
+        if (on_edge) continue;  // rounding decides on which side: either answer is right
 
         c.add("projector, seed " + std::to_string(seed), seed % 2 == 0, 1 / (shrunk * shrunk));
         const wr_projector record = projector_record(row, box);
@@ -83,7 +83,7 @@ inline Cases projector_cases() {
         const real facing = row.two_sided ? std::abs(cosine) : cosine;
         c.out("fade", facing > 0 ? reference::decal_angle_fade(facing, a0, a1) : real{0});
         const auto step = [&](V direction) { return reference::projected_step(row, box, p, direction); };
-        const bool beyond = cone && (1 - q.z) / 2 < near;  // no image is defined there
+        const bool beyond = cone && (1 - q.z) / 2 < near;  // so near the apex that there is no image
         c.out("step", beyond ? V2{NAN, NAN} : step(dp));
         const auto along = [&](V axis) {
             const V2 d = step(axis);

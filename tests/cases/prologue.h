@@ -33,7 +33,7 @@ inline Cases vertex_frame_cases() {
     c.add("vertex frame of no normal", true);
     in({}, {1, 2, 3}, 1);
     c.out("T", V{}), c.out("B", V{});
-    for (const real size : {1e-38L, 3e38L}) {  // nothing but finite
+    for (const real size : {1e-38L, 3e38L}) {  // any finite answer will do
         c.add("vertex frame beyond floats", true);
         in({size, -size, size}, V{3e38L, 3e38L, -3e38L}, -1);
         c.out("T", V{NAN, NAN, NAN}), c.out("B", V{NAN, NAN, NAN});
@@ -60,7 +60,7 @@ inline Cases two_sided_cases() {
     return c;
 }
 
-/// Normals at any angle to the view; none so near a right angle that the floats' rounding decides.
+/// Normals at any angle to the view, but none so near a right angle that rounding decides whether they face it.
 inline Cases facing_cases() {
     Cases c{.name = "facing normal"};
     for (unsigned seed = 1; seed <= 300; ++seed) {
@@ -77,7 +77,8 @@ inline Cases facing_cases() {
     return c;
 }
 
-/// Derivatives on a base normal: golden rows of listing 9, then footprints of any size, far from tangent.
+/// Derivatives moved onto a base normal: golden rows of listing 9, then footprints of any size that are far from
+/// tangent to it.
 inline Cases rebase_cases() {
     Cases c{.name = "listing09_prologue sigma"};
     const auto answer = [&](V n, V dp_dx, V dp_dy) {

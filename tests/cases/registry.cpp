@@ -28,7 +28,7 @@ using reference::Cell;
 using reference::Octaves;
 using Value = reference::NoiseValue<real>;
 
-constexpr real difference_margin = 1e-2L;  // several steps of a difference
+constexpr real difference_margin = 1e-2L;  // in cells; several times the step of a difference
 
 const std::map<std::string, Cases (*)()>& registry() {
     static const std::map<std::string, Cases (*)()> all{

@@ -4,8 +4,8 @@
 
 namespace wrinkle::cases {
 
-/// The cases of every row of functions(), by its name: inputs named as its parameters, answers as its results,
-/// data.constants and records as its settings.
+/// The makers of cases for every function of functions(), by the function's name. Inputs have the names of its
+/// parameters, answers those of its results; data.constants and data.records hold its settings.
 const std::map<std::string, Cases (*)()>& registry();
 
 }  // namespace wrinkle::cases

@@ -22,7 +22,7 @@ inline Cases resolve_cases() {
         c.in("n", n), c.in("g", g);
         c.out("normal", reference::resolve(n, g));
     }
-    for (unsigned seed = 1; seed <= 200; ++seed) {  // weights of any sign: a sum of bumps, some carved
+    for (unsigned seed = 1; seed <= 200; ++seed) {  // sums of bumps, of which some are subtracted
         Random random(seed);
         const V n = random.unit();
         V sum{};
@@ -38,7 +38,7 @@ inline Cases resolve_cases() {
     for (const V g : {V{largest, largest, -largest}, V{largest, 0, 0}, V{1e-45L, 0, 0}, V{}, V{0, 0, 1}}) {
         c.add("resolve of an extreme", true);
         c.in("n", V{0, 0, 1}), c.in("g", g);
-        c.out("normal", reference::resolve(V{0, 0, 1}, g));  // n = g: zero, the one gradient without an answer
+        c.out("normal", reference::resolve(V{0, 0, 1}, g));  // the last g equals n: the only gradient without an answer
     }
     return c;
 }
@@ -51,7 +51,7 @@ inline Cases perlin_perturbation_cases() {
         const bool hard = seed % 2 == 0;
         const V n = random.unit();
         V g = random.unit() * (hard ? random.magnitude(-30, 30) : random.uniform(0, 1));
-        if (seed % 10 == 0) g = n + random.unit() * random.magnitude(-6, -1);  // nothing left but the difference
+        if (seed % 10 == 0) g = n + random.unit() * random.magnitude(-6, -1);  // nearly cancels n
         g = Random::rounded(g);
         c.add("perlin perturbation, seed " + std::to_string(seed), hard);
         c.in("n", n), c.in("dh_dp", g);

@@ -14,8 +14,8 @@ using reference::Mat4x4;
 
 inline V xyz(const reference::Vec4<real>& c) { return {c[0], c[1], c[2]}; }
 
-/// A row of listing 10, shifted to its eye in long double, as the host does: s = c2 / w2, or for a parallel projection
-/// any point, here the near corner of the picture.
+/// A row of listing 10, moved to eye-relative positions in long double, as the host does. The eye is s = c2 / w2. A
+/// parallel projection has none, so any point serves: the near corner of the picture.
 struct Row {
     V position, n;  ///< position relative to the eye
     Mat4x4<real> m;
@@ -23,11 +23,11 @@ struct Row {
     bool parallel;
 
     V c(int i) const { return xyz(reference::column(m, i)); }
-    V axis(int i) const {  ///< of the image, up to multiples of the ray
+    V axis(int i) const {  ///< axis i of the image, of any length, and with any multiple of the ray added
         const auto w = [&](int k) { return m[3][static_cast<std::size_t>(k)]; };
         return parallel ? c(i) * w(3) - c(3) * w(i) : c(i);
     }
-    V ray() const {  ///< direction, as the difference of two homogeneous points on it
+    V ray() const {  ///< the ray's direction: the difference of two homogeneous points on it
         const V a = c(0) * x + c(1) * y + c(3);
         const real a_w = m[3][0] * x + m[3][1] * y + m[3][3];
         return normalize(c(2) * a_w - a * m[3][2]);
@@ -48,11 +48,12 @@ inline void put(double (&to)[3], V v) {
     to[0] = static_cast<double>(v.x), to[1] = static_cast<double>(v.y), to[2] = static_cast<double>(v.z);
 }
 
-inline wr_frame frame_of(const Row& row) {
-    wr_frame f{};
+inline wr_camera frame_of(const Row& row) {
+    wr_camera f{};
     put(f.c0, row.c(0)), put(f.c1, row.c(1)), put(f.c2, row.c(2)), put(f.c3, row.c(3));
     for (std::size_t i = 0; i < 4; ++i) f.w[i] = static_cast<double>(row.m[3][i]);
-    const real unit = 1 / length(row.c(0) * row.x + row.c(1) * row.y + row.c(3));  // rays of any scale serve
+    // The length of a ray's direction does not matter.
+    const real unit = 1 / length(row.c(0) * row.x + row.c(1) * row.y + row.c(3));
     const V d0 = row.c(3) * unit, dx = row.c(0) * unit, dy = row.c(1) * unit;
     put(f.d0, d0), put(f.dx, dx), put(f.dy, dy);
     put(f.dx_cross_d0, cross(dx, d0)), put(f.dx_cross_dy, cross(dx, dy));
@@ -61,7 +62,8 @@ inline wr_frame frame_of(const Row& row) {
     return f;
 }
 
-/// `pinhole`: the point is the one of the ray nearest to the position, else where the ray meets the position's plane.
+/// Adds a row. The position may lie a little off the pixel's ray. With `pinhole`, the point that is differentiated is
+/// the one of the ray nearest to it; else the one where the ray meets the plane through it.
 inline void add(Cases& c, const std::string& label, bool hard, const Row& row, bool pinhole) {
     const V n = normalize(row.n);
     c.add(label, hard, 1 / std::abs(dot(n, row.ray())));
@@ -73,9 +75,9 @@ inline void add(Cases& c, const std::string& label, bool hard, const Row& row, b
         pinhole ? reference::screen_derivative_pinhole(dot(row.position, d0) / dot(d0, d0), n, d0, row.c(0), row.c(1))
                 : reference::screen_derivative(row.position, n, row.m, row.x, row.y);
     c.out("dp_dx", d.dp_dx), c.out("dp_dy", d.dp_dy);
-    const wr_frame f = frame_of(row);
+    const wr_camera f = frame_of(row);
     const double* numbers = &f.width;
-    c.data.constants.insert(c.data.constants.end(), numbers, numbers + sizeof(wr_frame) / sizeof(double));
+    c.data.constants.insert(c.data.constants.end(), numbers, numbers + sizeof(wr_camera) / sizeof(double));
 }
 
 struct Projection {
@@ -83,7 +85,7 @@ struct Projection {
     Mat4x4<real> clip_from_view;
 };
 
-/// Every convention of depth, and no perspective.
+/// Projections of every depth convention, and parallel ones.
 inline std::vector<Projection> projections() {
     const auto perspective = [](reference::Vec4<real> depth) {
         return Mat4x4<real>{{{1.2L, 0, 0.1L, 0}, {0, 2, -0.2L, 0}, depth, {0, 0, -1, 0}}};
@@ -98,7 +100,7 @@ inline std::vector<Projection> projections() {
             {"orthographic, reversed", {{{0.1L, 0, 0, 0}, {0, 0.2L, 0, 0}, {0, 0, 0.01L, 1}, {0, 0, 0, 1}}}}};
 }
 
-/// Normalised device coordinates of (x, y, depth, 1) on a screen.
+/// A screen, which maps (x, y, depth, 1) to normalised device coordinates.
 struct Screen {
     const char* name;
     Mat4x4<real> ndc_from_screen;
@@ -112,7 +114,8 @@ inline std::vector<Screen> screens() {
             {"[-1,1], y flipped", screen(1, -1, 0, 0)}};
 }
 
-/// Points before a camera with normals at any angle to their rays, down to a millionth of a radian from a horizon.
+/// Adds points before cameras of every convention, with normals at any angle to their rays, down to a millionth of a
+/// radian from being seen edge on.
 inline void add_conventions(Cases& c, bool pinhole) {
     unsigned seed = 0;
     for (const Projection& projection : projections())
@@ -148,11 +151,12 @@ inline void add_conventions(Cases& c, bool pinhole) {
 
 }  // namespace detail
 
-/// The rows of listing 10, answered anew, because positions relative to the eye are rounded to other floats than those
-/// of the table, and cameras of every convention; `pinhole` leaves out what has no eye.
+/// The golden rows of listing 10 and cameras of every convention. The golden rows are answered anew: eye-relative
+/// positions are rounded to other floats than the positions of the table. `pinhole` leaves out cameras that have no
+/// eye.
 inline Cases screen_derivative_cases(bool pinhole) {
     Cases c;
-    c.data.constants_per_row = sizeof(wr_frame) / sizeof(double);
+    c.data.constants_per_row = sizeof(wr_camera) / sizeof(double);
     c.name = pinhole ? "listing10, pinhole form" : "listing10, general form";
     const GoldenTable table = reference::golden("listing10_screenderiv_noddxy");
     for (std::size_t i = 0; i < table.size(); ++i) {

@@ -5,7 +5,8 @@
 
 namespace wrinkle::cases {
 
-/// dp/dx, dp/dy within the tangent plane of n and d(s,t)/dx, d(s,t)/dy, regular and hard.
+/// Screen derivatives of a surface point (dp/dx and dp/dy, tangent to the surface of normal n) and of its texture
+/// coordinates (d(s,t)/dx and d(s,t)/dy).
 struct SurfaceDerivatives {
     V n, dp_dx, dp_dy;
     reference::TexDerivative<real> st;
@@ -23,15 +24,15 @@ inline void add_inputs(Cases& c, const SurfaceDerivatives& d) {
     c.in("n", d.n), c.in("dp_dx", d.dp_dx), c.in("dp_dy", d.dp_dy), c.in("dst_dx", d.st.dx), c.in("dst_dy", d.st.dy);
 }
 
-/// 1 / cos between n and the plane of dp_dx and dp_dy: what variants without compensation lose to a normal that does
-/// not fit them.
+/// 1 / cos of the angle between n and the normal of the plane of dp_dx and dp_dy: the factor by which errors grow in
+/// variants without compensation.
 inline real misfit(const SurfaceDerivatives& d) {
     const V normal = cross(d.dp_dx, d.dp_dy);
     return length(normal) * length(d.n) / std::abs(dot(normal, d.n));
 }
 
-/// A footprint of any size, stretched up to 1e6 : 1 as at grazing angles, texture coordinates of any scale and sheared,
-/// mirrored or nearly degenerate.
+/// A footprint of any size, stretched by up to 1e6 : 1, as at grazing angles; with texture coordinates of any scale,
+/// also sheared, mirrored or nearly degenerate.
 inline SurfaceDerivatives random_derivatives(Random& random) {
     SurfaceDerivatives d;
     d.n = random.unit();

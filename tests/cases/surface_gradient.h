@@ -45,7 +45,8 @@ inline Cases tbn_cases() {
     return c;
 }
 
-/// Scale-dependent surface gradient, listing 6: slopes are those of the table per texel times texels, rounded.
+/// Scale-dependent surface gradient, listing 6. The table's slopes per texel are made slopes per unit of texture
+/// coordinate and rounded to float.
 inline Cases scale_dependent_cases() {
     Cases c{.name = "listing06_scale_dependent"};
     const auto answer = [&](const SurfaceDerivatives& d, V2 deriv, V2 dim) {
@@ -69,7 +70,7 @@ inline Cases scale_dependent_cases() {
         const SurfaceDerivatives d = random_derivatives(random);
         answer(d, {random.uniform(-1, 1), random.uniform(-1, 1)}, {1024, 512});
     }
-    for (unsigned seed = 1; seed <= 20; ++seed) {  // no area on the screen: no gradient
+    for (unsigned seed = 1; seed <= 20; ++seed) {  // a footprint without area: there is no gradient
         Random random(seed);
         SurfaceDerivatives d = random_derivatives(random);
         d.dp_dy = seed % 2 ? V{} : d.dp_dx;

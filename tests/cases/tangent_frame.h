@@ -4,7 +4,7 @@
 
 namespace wrinkle::cases {
 
-/// T and B: golden rows, random footprints, exactly degenerate ones (a frame of zeros).
+/// T and B: golden rows, random footprints, and exactly degenerate ones, whose answers are zeros.
 inline Cases tangent_frame_cases() {
     Cases c{.name = "listing04_genbasis_tb"};
     const auto answer = [&](const SurfaceDerivatives& d) {

@@ -5,8 +5,8 @@
 
 namespace wrinkle::cases {
 
-/// Least squares of dp = a dp_du + b dp_dv for tangents of any scale, skew and handedness, dp in and out of their
-/// plane.
+/// Least squares of dp = a dp_du + b dp_dv, for tangents of any scale, skew and handedness, and dp within and out of
+/// their plane.
 inline Cases texcoord_step_cases() {
     Cases c{.name = "steps from tangents"};
     for (unsigned seed = 1; seed <= 300; ++seed) {
@@ -16,7 +16,7 @@ inline Cases texcoord_step_cases() {
         const V dp_du = Random::rounded(random.unit() * u), dp_dv = Random::rounded(random.unit() * v);
         const V off = normalize(cross(dp_du, dp_dv)) * random.uniform(-1, 1) * (u / 10);
         const V dp = Random::rounded(dp_du * random.uniform(-1, 1) + dp_dv * random.uniform(-1, 1) + off);
-        // Nearly parallel tangents and what is out of their plane take their share of the digits.
+        // Digits are lost to tangents that are nearly parallel, and to the part of dp that is out of their plane.
         const real skew = 1 / length(cross(normalize(dp_du), normalize(dp_dv)));
         const auto want = reference::uv_derivative_from_tangents(dp, dp_du, dp_dv);
         const real terms = length(dp) * (length(dp_du) + length(dp_dv)) * skew * skew / (length(dp_du) * length(dp_dv));
@@ -25,7 +25,7 @@ inline Cases texcoord_step_cases() {
         c.in("dp", dp), c.in("dp_du", dp_du), c.in("dp_dv", dp_dv);
         c.out("step", *want), c.out("usable", real{1});
     }
-    for (const V dp_dv : {V{}, V{2, 4, 6}, V{-1, -2, -3}}) {  // no answer: 0, and the pixel is not usable
+    for (const V dp_dv : {V{}, V{2, 4, 6}, V{-1, -2, -3}}) {  // parallel tangents: 0, and "usable" is 0
         c.add("step from parallel tangents", true);
         c.in("dp", V{1, 1, 1}), c.in("dp_du", V{1, 2, 3}), c.in("dp_dv", dp_dv);
         c.out("step", V2{}), c.out("usable", real{0});
@@ -33,7 +33,7 @@ inline Cases texcoord_step_cases() {
     return c;
 }
 
-/// Planar projections of any tiling and translation; errors are to the size of what is summed.
+/// Planar projections of any tiling and translation. Errors are judged by the size of the terms that are summed.
 inline Cases planar_cases() {
     Cases c{.name = "planar texture coordinates"};
     c.data.constants_per_row = 8;

@@ -5,7 +5,7 @@
 
 namespace wrinkle::cases {
 
-/// Metres a unit of texture coordinate, for any footprint and skew; 0 where there is none.
+/// Metres of surface for a unit of texture coordinate, for any footprint and skew; 0 where one of the two has no area.
 inline Cases texture_metres_cases() {
     Cases c{.name = "texture metres"};
     const auto answer = [&](const SurfaceDerivatives& d) {
@@ -22,7 +22,7 @@ inline Cases texture_metres_cases() {
         c.add("texture metres, any footprint, seed " + std::to_string(seed), true);
         answer(random_derivatives(random));
     }
-    for (unsigned seed = 1; seed <= 40; ++seed) {  // a line in space, or a line in the texture
+    for (unsigned seed = 1; seed <= 40; ++seed) {  // the footprint is a line, in space or in the texture
         Random random(seed);
         SurfaceDerivatives d = random_derivatives(random);
         if (seed % 2)

@@ -7,7 +7,7 @@
 
 namespace wrinkle::cases {
 
-/// Weights, listing 14; the sharpness of a row is a constant of its own.
+/// Weights, listing 14. Every row has its own sharpness, as a constant.
 inline Cases triplanar_weight_cases() {
     Cases c{.name = "listing14_triplanar_weights"};
     c.data.constants_per_row = 1;
@@ -29,14 +29,14 @@ inline Cases triplanar_weight_cases() {
         const std::string label = "triplanar weights, seed " + std::to_string(seed);
         add(n, random.below(2) ? 3 : random.magnitude(-1, 2.3L), label, true);
         add(n, 1 + random.below(200), label + ", whole", true);
-        // Two planes nearly alike: what a large exponent makes the most of.
+        // Two planes with nearly the same weight: a large exponent magnifies their difference most.
         const V close = Random::rounded(normalize(V{1, 1 + random.uniform(-0.02L, 0.02L), random.uniform(-1, 1)}));
         add(close, 128, label + ", close", true);
     }
     return c;
 }
 
-/// Volume gradients, listing 13; the table has their tangential part, which the references are tested with.
+/// Volume gradients, listing 13. (The golden table only has their tangential part: it tests the references instead.)
 inline Cases triplanar_gradient_cases() {
     Cases c{.name = "listing13_triplanar"};
     const GoldenTable table = reference::golden("listing13_triplanar");
@@ -49,8 +49,8 @@ inline Cases triplanar_gradient_cases() {
     return c;
 }
 
-/// Weighted object-space normals of any length, some facing away, some nearly within the surface. Their gradients'
-/// errors grow with their own squares, as tangents do.
+/// Weighted object-space normals of any length, of which some face away and some lie nearly within the surface. Those
+/// have steep gradients, whose errors grow with the square of the gradient.
 inline Cases triplanar_normal_cases() {
     Cases c{.name = "triplanar object-space normals"};
     const real nan = std::numeric_limits<real>::quiet_NaN();
@@ -83,7 +83,7 @@ inline Cases triplanar_normal_cases() {
     return c;
 }
 
-/// First components of normals of slopes of any size.
+/// Slopes of any size, and the first component of the normal that each makes.
 inline Cases normal_offset_cases() {
     Cases c{.name = "normal offsets"};
     for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -8,7 +8,8 @@
 
 namespace wrinkle::cases {
 
-/// A made-up grid of 5 x 4 x 3 blocks at odd places: most hold random voxels, some one value, some are background.
+/// A grid of 5 x 4 x 3 blocks that does not begin at 0: most blocks hold random voxels, some a single value, some are
+/// background.
 inline Volume made_volume(int channels) {
     Random random(11);
     Volume volume;
@@ -29,7 +30,8 @@ inline Volume made_volume(int channels) {
     return volume;
 }
 
-/// Points in cells, on their faces, edges and corners, at the seams of blocks, around the grid, and far from it.
+/// Points within cells, on their faces, edges and corners, at borders of blocks, at the border of the grid and far from
+/// it.
 inline std::vector<V> volume_points() {
     std::vector<V> points;
     for (unsigned seed = 1; seed <= 600; ++seed) {
@@ -118,7 +120,7 @@ inline Cases golden_march_cases() {
         const real want = reference::golden_distance(eye, ray, radius);
         const auto f = reference::golden_ratio(eye + ray * want);
         const real cosine = std::abs(dot(normalize(f.gradient), ray));
-        if (want > 0 && cosine < 0.02L) continue;  // a hit or a miss by rounding
+        if (want > 0 && cosine < 0.02L) continue;  // so grazing that rounding decides between hit and miss
         c.add("march, seed " + std::to_string(seed), false, want > 0 ? 1 / cosine : 1);
         c.in("eye", eye), c.in("ray", ray);
         c.out("distance", want);

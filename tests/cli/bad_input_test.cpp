@@ -1,4 +1,4 @@
-// Bad input: a code other than 0, a message that names the thing, and nothing written.
+// Bad input: the exit code is not 0, the message names what is wrong, and nothing is written.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli.h"

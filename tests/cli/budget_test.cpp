@@ -26,7 +26,7 @@ TEST(BudgetOption, ReportsWhatWasMeasured) {
     EXPECT_EQ(budget.at("max_error"), 1e-5);
     EXPECT_EQ(budget.at("precision"), "everything in double");
     EXPECT_LE(budget.at("measured").at("max").get<double>(), 1e-5);
-    EXPECT_GT(budget.at("measured").at("max").get<double>(), 0);  // the rounding of what is written
+    EXPECT_GT(budget.at("measured").at("max").get<double>(), 0);  // files are rounded to float, at least
     EXPECT_LE(budget.at("measured").at("pixels").get<int>(), 800);
     EXPECT_TRUE(
         nlohmann::json::parse(place.run("run scene.toml --json --max-error 1").out).at("budget").at("misses").empty());
@@ -159,7 +159,7 @@ TEST(Tune, WritesATableThatRunsChooseBy) {
     EXPECT_GE(noise.at("standard").at("ns").get<double>(), 0);
     EXPECT_GT(noise.at("standard").at("max").get<double>(), noise.at("exact").at("max").get<double>());
 
-    noise.at("standard").at("max") = 100;  // now only what claims less will do
+    noise.at("standard").at("max") = 100;  // so that another variant has to be chosen
     for (const auto& [variant, ns] : std::map<std::string, int>{{"standard", 1}, {"exact", 2}, {"double", 1000}})
         noise.at(variant).at("ns") = ns;
     write_text(place / "cache/precision.json", table.dump());

@@ -23,7 +23,7 @@ inline std::string read_text(const fs::path& file) {
 }
 
 struct Ran {
-    int code = -1;    ///< exit status; 128 + signal when one ended it
+    int code = -1;    ///< exit status; 128 + the signal's number when a signal ended it
     std::string out;  ///< what it printed
     std::string err;
 };
@@ -55,7 +55,7 @@ public:
                    fmt::format("[gbuffer]\nfile = \"{}\"\n[camera]\n{}\n{}\n", gbuffer, camera, layers));
     }
 
-    /// Names below `name`, sorted; nothing where there is no such folder.
+    /// The sorted names of what the folder `name` holds. Empty when there is no such folder.
     std::vector<std::string> files(const std::string& name) const {
         std::vector<std::string> names;
         if (fs::is_directory(folder_ / name))
@@ -84,7 +84,8 @@ inline const std::string tilt = "[[layer]]\nname = \"tilt\"\nkind = \"constant\"
 inline const std::string lit =
     "[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0.66, 0.42, -0.62]\n";
 
-/// A failed run: a code other than 0 and no signal, a message of wrinkle's own that names `parts`, nothing on stdout.
+/// Expects that a run failed by itself, not by a signal, with a message of wrinkle's own that contains `parts`, and
+/// printed nothing to stdout.
 inline void expect_failed(const Ran& ran, const std::vector<std::string>& parts) {
     EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code << ": " << ran.err;
     EXPECT_TRUE(ran.err.starts_with("wrinkle: ")) << ran.err;

@@ -136,7 +136,7 @@ TEST(Eval, SettingsAreNumbersTexturesAndCameras) {
 
     const std::string camera = Workplace::data_file("gbuffer/small.camera.json");
     write_text(place / "p.csv", "n.x,n.y,n.z,p.x,p.y,p.z,x,y\n0,0,1,0,0,-2,10.5,20.5\n");
-    const std::string derive = "eval screen_derivatives --in p.csv --set frame=" + camera;
+    const std::string derive = "eval screen_derivatives --in p.csv --set camera=" + camera;
     EXPECT_EQ(place.run(derive).code, 0);
     EXPECT_EQ(place.run(derive).out, place.run(derive + " --size 120x68").out) << "its file says 120 x 68";
     expect_failed(place.run("eval screen_derivatives --in p.csv"), {"\"frame\"", "camera"});
@@ -159,7 +159,7 @@ TEST(Eval, PixelCentresOfPicturesAreKnown) {
     const Workplace place;
     const std::string frame = Workplace::data_file("gbuffer/small.exr");
     const Ran ran = place.run("eval screen_derivatives --in n=" + frame + ":Normal --in p=" + frame +
-                              ":Position --set frame=" + Workplace::data_file("gbuffer/small.camera.json") +
+                              ":Position --set camera=" + Workplace::data_file("gbuffer/small.camera.json") +
                               " --out dp_dx=d.exr --out dp_dy=d.exr");
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(place.run("info d.exr").code, 0);

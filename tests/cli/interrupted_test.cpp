@@ -1,4 +1,4 @@
-// A full disk and signals in the middle of a run: the old pictures stay whole, nothing is left beside them.
+// A full disk, or a signal in the middle of a run: older pictures stay as they were, and nothing else is left behind.
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
@@ -14,7 +14,7 @@ namespace {
 using Names = std::vector<std::string>;
 const Names pictures{"lit.exr", "lit.png", "normal.exr", "normal.png"};
 
-/// A finished run whose pictures are then replaced by a line of text each.
+/// Runs the scene, then overwrites each picture with a line of text, to find out whether a later run touches them.
 void run_then_mark(const Workplace& place) {
     place.write_scene(
         "[[layer]]\nname = \"dunes\"\nkind = \"noise\"\nfrequency = 3\noctaves = 8\nfootprint = false\nscale = 0.1\n" +
@@ -32,7 +32,7 @@ void expect_unchanged(const Workplace& place, const std::string& when) {
 TEST(Interrupted, ByAFullDisk) {
     const Workplace place;
     run_then_mark(place);
-    // In blocks of 512 bytes: too little for anything; for the pictures but not for the EXR files.
+    // Limits in blocks of 512 bytes: the first is too small for any file, the others for the EXR files only.
     for (const int blocks : {1, 64, 128}) {
         const Ran ran = place.run("run scene.toml", fmt::format("ulimit -f {};", blocks));
         expect_failed(ran, {"cannot write", ".exr", "unchanged"});

@@ -8,7 +8,7 @@
 
 namespace wrinkle::test {
 
-/// An environment variable for the length of a test.
+/// Sets an environment variable, and restores it at the end of the test.
 class Variable {
 public:
     Variable(const char* name, const std::filesystem::path& value) : name_(name) {

@@ -1,4 +1,4 @@
-// Where built programs are kept, and that they do not pile up.
+// The cache of built programs: where it is, and that it does not grow without end.
 #include "device/program_cache.h"
 
 #include <gtest/gtest.h>
@@ -33,12 +33,12 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
     fs::copy_file(folder / "3.program", folder / "not_ours.bin");
-    for (const int age : {0, 2}) {  // of runs that go on, and that were killed
+    for (const int age : {0, 2}) {  // files of a run that goes on, and of one that was killed
         const fs::path file = folder / ("9.program.123-" + std::to_string(age));
         fs::copy_file(folder / "3.program", file);
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
-    EXPECT_EQ(read_program(folder / "3.program"), binary);  // now the one used last
+    EXPECT_EQ(read_program(folder / "3.program"), binary);  // makes it the one used last
     write_program(folder / "0.program", binary, 2500);
     EXPECT_TRUE(fs::exists(folder / "0.program"));
     EXPECT_TRUE(fs::exists(folder / "3.program"));

@@ -23,7 +23,7 @@ const Device& device() { return test::test_device(); }
 
 const std::string text = "kernel void fill(global float *out) { out[get_global_id(0)] = 40 + get_global_id(0); }\n";
 
-/// Builds and runs `text` on four work-items; what the last one wrote.
+/// Runs a program's kernel on four work-items and gives what the last one wrote.
 float filled(BuiltProgram& built) {
     cl::Kernel kernel(built.program, "fill");
     const cl::Buffer out(device().context, CL_MEM_WRITE_ONLY, 4 * sizeof(float));
@@ -41,7 +41,7 @@ std::string read(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Builds, expects it to come from `source`, to work, and to be in the cache afterwards.
+/// Builds a program. Expects that it came from `source`, works, and is in the cache afterwards.
 BuiltProgram expect_built(BuildSource source, const char* what) {
     BuiltProgram built = build_program(device(), text, {.lanes = 1});
     EXPECT_EQ(built.source == BuildSource::disk, source == BuildSource::disk) << what;
@@ -86,7 +86,7 @@ TEST(Cache, DamagedFilesAreBuiltAnew) {
 TEST(Cache, FoldersThatCannotBeWrittenAreNoError) {
     const TempFolder folder;
     write(folder / "file", "in the way");
-    const Variable variable("WRINKLE_CACHE_DIR", folder / "file/cache");  // root may write anywhere but there
+    const Variable variable("WRINKLE_CACHE_DIR", folder / "file/cache");  // below a file, where even root cannot write
     expect_built(BuildSource::compiled, "first");
     expect_built(BuildSource::compiled, "second");
     EXPECT_EQ(read(folder / "file"), "in the way");

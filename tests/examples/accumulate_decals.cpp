@@ -48,8 +48,8 @@ int main() try {
     queue.enqueueReadBuffer(out.at("volume_gradient.y"), CL_FALSE, 0, pixels * 4, y.data(), &evaluated, &read[1]);
     cl::Event::waitForEvents(read);
 
-    // (0, 0.5, 0) between the ramp's inner texels, zero outside of the box. For any normal n, the surface gradient is
-    // then g = v - n (n . v), and the bumped normal normalize(n - g).
+    // The volume gradient v is (0, 0.5, 0) between the ramp's inner texels and zero outside of the box. For any normal
+    // n, the surface gradient is then g = v - n (n . v), and the bumped normal is normalize(n - g).
     int wrong = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const double east = std::abs((i % 128 + 0.5) / 32 - 2), north = std::abs(2 - (i / 128 + 0.5) / 32);

@@ -1,6 +1,6 @@
-// A kernel of your own from wrinkle's kernel functions: a sine along x bumps the normal of a plane. It needs OpenCL and
-// the kernel files only (the device is found through wrinkle for brevity). Run with the folder of the kernel files:
-// wrinkle_KERNEL_DIR of the CMake package.
+// A kernel of your own that uses wrinkle's kernel functions: a sine along x bumps the normal of a plane. It needs only
+// OpenCL and the kernel files (wrinkle finds the device here, for brevity). Its argument is the folder of the kernel
+// files, wrinkle_KERNEL_DIR of the CMake package.
 #include <cmath>
 #include <iostream>
 #include <stdexcept>
@@ -10,8 +10,8 @@
 #include "wrinkle/device.h"
 
 constexpr char source[] = R"(
-#include "lanes.clh"      // real, mask ...: WR_LANES pixels a work-item
-#include "vec.clh"        // vec2, vec3
+#include "lanes.clh"      // wr_real, wr_mask ...: WR_LANES pixels a work-item
+#include "vec.clh"        // wr_vec2, wr_vec3
 #include "constants.clh"
 #include "surface/tangent_frame.clh"
 #include "surface/surface_gradient.clh"
@@ -20,9 +20,9 @@ constexpr char source[] = R"(
 kernel void bump(global const float *restrict px, global float *restrict nx, global float *restrict nz)
 {
     size_t at = get_global_id(0) * WR_LANES;
-    vec3 n = wr_v3((real)(0), (real)(0), (real)(1));
-    vec3 dh_dp = wr_v3(cos(wr_load(px, at)), (real)(0), (real)(2));  // of the height sin(x) + 2 z
-    vec3 bumped = wr_resolve(n, wr_surface_gradient_from_volume(n, dh_dp));
+    wr_vec3 n = wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(1));
+    wr_vec3 dh_dp = wr_v3(cos(wr_load(px, at)), (wr_real)(0), (wr_real)(2));  // of the height sin(x) + 2 z
+    wr_vec3 bumped = wr_resolve(n, wr_surface_gradient_from_volume(n, dh_dp));
     wr_store(bumped.x, nx, at);
     wr_store(bumped.z, nz, at);
 }

@@ -29,7 +29,8 @@ int main() try {
                                                                                         {"dp_dy.y", dy_y},
                                                                                         {"dp_dy.z", dy_z}});
 
-    // p = (t X, t, 0). One pixel to the right X grows by `step`; one down Y shrinks by it, and t by t^2 step / height.
+    // p = (t X, t, 0). One pixel to the right, X grows by `step`. One pixel down, Y shrinks by `step`, and so t shrinks
+    // by t^2 step / height.
     int wrong = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const bool ground = i >= pixels / 2;  // the sky has no derivatives: zero

@@ -17,12 +17,12 @@ constexpr double aspect = 96.0 / 54.0;
 
 Camera true_camera() { return Camera::look_at({1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.6, aspect); }
 
-/// Planar depth of the surface seen through a pixel: wavy, with a hole of background.
+/// Planar depth of a wavy surface at a pixel; the first columns are background.
 double depth_at(int x, int y) { return x < 5 ? 1e10 : 6 + std::sin(0.2 * x) + std::cos(0.3 * y); }
 
 enum class Space { world, camera };
 
-/// Position and depth planes of true_camera(), with the header of `attributes`.
+/// Writes a frame seen by true_camera(): positions, depth, and the attributes of `header`.
 void write_frame(const std::filesystem::path& file, const Metadata& header, std::vector<std::string> names,
                  bool ray = false, Space space = Space::world) {
     const auto camera = true_camera();
@@ -59,18 +59,18 @@ Mat4 transposed(const Mat4& m) {
     return t;
 }
 
-/// World to the left-handed camera of the EXR standard, on columns.
+/// The matrix from world space to the EXR standard's camera space, which is left-handed. Acts on column vectors.
 Mat4 world_to_camera() {
     return multiply({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}}}, true_camera().view);
 }
 
-/// World to NDC, (0, 0) top left, on columns.
+/// The matrix from world space to normalised device coordinates with (0, 0) at the top left. Acts on column vectors.
 Mat4 world_to_ndc() {
     const Mat4 window{{{0.5, 0, 0, 0.5}, {0, -0.5, 0, 0.5}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
     return multiply(window, multiply(true_camera().proj, true_camera().view));
 }
 
-/// Both cameras see the same: same rays, same eye.
+/// Expects that `camera` has the eye and the rays of true_camera().
 void expect_same(const Camera& camera, double tolerance = 1e-4) {
     const auto found = pinhole_rays(camera, size), expected = pinhole_rays(true_camera(), size);
     ASSERT_TRUE(found);
@@ -140,7 +140,7 @@ TEST(CameraFile, HeaderWithoutPositionsToCheckWith) {
 
 TEST(CameraFile, HeaderOfPbrtIsTransposedAndYUp) {
     TempFolder folder;
-    // [0,1], y up, the screen window as wide as the aspect.
+    // Coordinates in [0,1] with y up, where the width of the screen window is the aspect.
     const Mat4 window{{{0.5 * aspect, 0, 0, 0.5}, {0, 0.5, 0, 0.5}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
     Metadata header;
     header.set("worldToCamera", world_to_camera());

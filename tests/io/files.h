@@ -16,7 +16,7 @@
 /// Small image files for the tests of host/io.
 namespace wrinkle::test {
 
-/// A folder of its own for each test, gone afterwards.
+/// A folder for one test, deleted afterwards.
 class TempFolder {
 public:
     TempFolder() {
@@ -43,7 +43,7 @@ private:
 /// Value of a channel at a pixel.
 using Pixel = std::function<float(int channel, int x, int y)>;
 
-/// Different in every channel and pixel, small enough for half: 100 c + x + y / 64.
+/// A number that differs in every channel and pixel and is exact as a half: 100 c + x + y / 64.
 inline float numbered(int channel, int x, int y) {
     return static_cast<float>(100 * channel + x) + static_cast<float>(y) / 64.0f;
 }
@@ -88,7 +88,7 @@ inline void write_exr(const std::filesystem::path& file, int width, int height, 
 
 inline void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
-/// What an expression complains about; fails the test when it does not.
+/// The message of the Error that `action` throws. The test fails when it throws none.
 template <typename Action>
 std::string error_of(Action&& action) {
     try {

@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 using Names = std::vector<std::string>;
 
-/// The planes' rows, one vector a plane.
+/// Rows [begin, end) of some planes, a vector for each plane.
 std::vector<std::vector<float>> read(const GBufferReader& reader, std::uint32_t begin, std::uint32_t end,
                                      const Names& planes) {
     std::vector<std::vector<float>> values(planes.size());
@@ -67,9 +67,10 @@ TEST(GBufferReader, HalfAndTiledFilesReadTheSame) {
     }
 }
 
-// A band begins among the blocks that the band before has read, of one part or of several.
+// A band may begin in a block that the band before has read already. Planes may be of one part of the file or of
+// several.
 TEST(GBufferReader, BandsThatOverlapReadTheSame) {
-    using Plane = std::pair<std::string, int>;  // and the number of its channel in its part
+    using Plane = std::pair<std::string, int>;  // a plane, and the number of its channel within its part
     TempFolder folder;
     const int width = 21, height = 150;
     auto lines = make_spec(width, height, {"N.X", "N.Y", "N.Z", "U", "Z"}), tiles = lines, crop = lines;
@@ -105,12 +106,12 @@ TEST(GBufferReader, BandsThatOverlapReadTheSame) {
         const Plane normal{"normal.z", 2};
         for (int band = 0; band < height; band += 32)
             expect(std::max(band - 1, 0), std::min(band + 33, height), {normal, file.depth});
-        expect(40, 50, {normal, file.depth});      // back, and within
-        expect(48, 49, {file.depth, file.other});  // of other channels
+        expect(40, 50, {normal, file.depth});      // backwards, and within the rows read before
+        expect(48, 49, {file.depth, file.other});  // other channels
         expect(47, 100, {normal});
         expect(98, 150, {normal});
         const Plane other_axes[] = {{"normal.x", 0}, {"normal.y", 1}};
-        expect(20, 30, {other_axes[0], normal});  // the same range of channels, of which fewer and then all are wanted
+        expect(20, 30, {other_axes[0], normal});  // channels that lie among those read before, but were not wanted then
         expect(28, 40, {other_axes[0], other_axes[1], normal});
     }
 }
@@ -136,7 +137,8 @@ TEST(GBufferReader, ChannelsOverSeveralParts) {
 TEST(GBufferReader, PixelsOutsideTheDataWindowAreBackground) {
     TempFolder folder;
     auto spec = make_spec(10, 8, {"N.X", "N.Y", "N.Z"});
-    spec.x = 105, spec.y = 203;  // the frame begins at (100, 200): 5 to the right, 3 down, 3 columns outside
+    // The frame begins at (100, 200): data begins 5 right and 3 below, and 3 columns are outside of it.
+    spec.x = 105, spec.y = 203;
     spec.full_x = 100, spec.full_y = 200, spec.full_width = 12, spec.full_height = 20;
     write_image(folder / "crop.exr", {{spec}});
     const GBufferReader reader(folder / "crop.exr");
@@ -233,7 +235,7 @@ TEST(GBufferReader, RefusesFilesThatAreNoFrames) {
 
 TEST(GBufferReader, NamesTheFirstRowOfATruncatedFile) {
     TempFolder folder;
-    // Noise, so that ZIP cannot shrink the later rows to nothing.
+    // Noise, which ZIP cannot compress: else all rows might lie in what is left of the file.
     write_exr(folder / "cut.exr", 64, 256, {"P.X", "P.Y", "P.Z"}, [](int c, int x, int y) {
         return std::fmod(static_cast<float>((c + 7 * x + 131 * y) * 7919 % 10007), 97.3f);
     });
@@ -245,7 +247,7 @@ TEST(GBufferReader, NamesTheFirstRowOfATruncatedFile) {
     EXPECT_EQ(text.find('\n'), std::string::npos);
 }
 
-// Opening it looks into the middle of the file, for packed normals; that must not be what complains.
+// When a file is opened, some rows are read to find out whether normals are packed. That must not be what fails.
 TEST(GBufferReader, NamesTheFirstRowOfATruncatedFileOfNormals) {
     TempFolder folder;
     write_exr(folder / "cut.exr", 64, 256, {"N.X", "N.Y", "N.Z"},

@@ -55,7 +55,7 @@ TEST(Roles, TangentsWithTheirSign) {
     expect_channels(
         detect_roles(names),
         {{"tangent.z", "VL.Tangent.Z"}, {"tangent_sign", "VL.Tangent.W"}, {"bitangent.x", "VL.Bitangent.X"}});
-    names = layers({{"N", "XYZ"}, {"tangent", "RGBA"}});  // alpha is coverage, until someone says otherwise
+    names = layers({{"N", "XYZ"}, {"tangent", "RGBA"}});  // alpha is coverage, unless an override says otherwise
     EXPECT_TRUE(detect_roles(names).has_role("tangent"));
     EXPECT_FALSE(detect_roles(names).has_role("tangent_sign"));
     expect_channels(detect_roles(names, {{"tangent_sign", "tangent.A"}}), {{"tangent_sign", "tangent.A"}});

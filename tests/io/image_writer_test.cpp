@@ -19,7 +19,7 @@ using Names = std::vector<std::string>;
 
 constexpr std::uint32_t width = 45, height = 67;
 
-/// Planes of a whole picture; planes of bands are pointers into them.
+/// Planes of a whole picture, from which bands are written.
 std::vector<std::vector<float>> planes_of(int channels) {
     std::vector<std::vector<float>> planes(static_cast<std::size_t>(channels));
     for (int c = 0; c < channels; ++c)
@@ -160,7 +160,7 @@ TEST(ImageWriter, KillLeavesNothing) {
     TempFolder folder;
     const auto child = ::fork();
     if (child == 0) {
-        OIIO::attribute("threads", 1);  // threads of the parent's pool do not exist here
+        OIIO::attribute("threads", 1);  // a forked process has no threads of its parent's pool
         ImageWriter writer(folder / "out.png", {width, height}, {"Z"});
         write_band(writer, planes_of(1), 0, 40);
         ::raise(SIGKILL);
@@ -171,7 +171,7 @@ TEST(ImageWriter, KillLeavesNothing) {
     EXPECT_TRUE(folder.files().empty());
 }
 
-/// Files may not grow past `bytes` while it lives: what a full disk looks like to the writer.
+/// While it lives, no file can grow beyond so many bytes, which looks like a full disk to the writer.
 class DiskOf {
 public:
     explicit DiskOf(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -11,7 +11,7 @@ using namespace test;
 
 TEST(Montage, FillsRowsOfColumns) {
     const TempFolder folder;
-    const int width = 30, height = 20, gap = 6, caption = 24;  // as README's pictures have them
+    const int width = 30, height = 20, gap = 6, caption = 24;  // as in montage.cpp
     std::vector<std::vector<float>> pictures;
     std::vector<MontagePart> parts;
     for (int i = 0; i < 3; ++i) pictures.emplace_back(static_cast<std::size_t>(3 * width * height), 0.2F * (i + 1));

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-/// The row and column as sixteenths: exact in 8 bits after rounding, different everywhere.
+/// A number that differs in every channel and pixel, and is exact when it is stored in 8 bits.
 float gradient(int c, int x, int y) { return static_cast<float>(51 * c + 16 * y + x) / 255.0f; }
 
 TEST(TextureFile, IntegersBecomeZeroToOneWithTheBottomRowFirst) {
@@ -57,7 +57,8 @@ TEST(TextureFile, SlopesArePerUnitOfTextureWithTUp) {
 
 TEST(TextureFile, BumpslopesAreKnownByTheirChannels) {
     TempFolder folder;
-    const auto ramp = [](int c, int, int) { return c == 1 ? 0.25f : c == 2 ? 0.5f : 7.0f; };  // t runs down
+    // Slopes along a t that points down.
+    const auto ramp = [](int c, int, int) { return c == 1 ? 0.25f : c == 2 ? 0.5f : 7.0f; };
     auto spec = make_spec(8, 4, {"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"});
     write_image(folder / "b.exr", {{spec, ramp}});
     const Image texels = load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture);
@@ -66,10 +67,11 @@ TEST(TextureFile, BumpslopesAreKnownByTheirChannels) {
     spec.attribute("uvslopes_scale", 16.0f);
     write_image(folder / "b.exr", {{spec, ramp}});
     EXPECT_FLOAT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel).at(3, 1, 1), -0.5f * 16);
-    const auto of_normals = [&](int c, int x, int y) { return c == 0 ? -1.0f : ramp(c, x, y); };  // t is theirs, up
+    // Made from normals: heights of -1, and t points up.
+    const auto of_normals = [&](int c, int x, int y) { return c == 0 ? -1.0f : ramp(c, x, y); };
     write_image(folder / "b.exr", {{spec, of_normals}});
     EXPECT_FLOAT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texel).at(3, 1, 1), 0.5f * 16);
-    // What maketx itself wrote: the slopes are those of its heights.
+    // A file that maketx itself wrote: its slopes must be those of its heights.
     const auto file = std::filesystem::path(WRINKLE_SOURCE_DIR) / "data/textures/ripples_bumpslopes.exr";
     const Image height = load_texture(file, ImageUse::scalar);
     const Image slopes = load_slopes(file, Encoding::automatic, SlopeUnit::texel);
@@ -101,7 +103,8 @@ TEST(TextureFile, ObjectNormalsBecomeVectors) {
     ASSERT_EQ(image.channels, 3);
     EXPECT_NEAR(image.at(1, 1, 2), -1, 1e-6);
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(0, 1, c), 0) << "grey is no normal";
-    // Floats are vectors, even if none is negative; unless they are unit only once unpacked.
+    // Floats are vectors as they are, even when no component is negative, unless they have unit length only once they
+    // are unpacked.
     write_exr(folder / "v.exr", 4, 3, {"R", "G", "B"}, [](int c, int, int) { return c == 2 ? 1.0f : 0.0f; });
     EXPECT_EQ(load_texture(folder / "v.exr", ImageUse::object_normal).at(1, 1, 2), 1);
     write_exr(folder / "p.exr", 4, 3, {"R", "G", "B"}, [](int c, int, int) { return c == 2 ? 1.0f : 0.5f; });
@@ -116,7 +119,7 @@ TEST(TextureFile, AlphaDoesNotScaleTheData) {
     write_exr(
         folder / "a.png", 4, 4, {"R", "G", "B", "A"}, [](int c, int, int) { return c == 3 ? 0.2f : 0.8f; },
         OIIO::TypeUInt8);
-    // The file holds associated values divided by alpha; reading must not multiply them again.
+    // PNG stores colours that are not multiplied by alpha; reading must not multiply them.
     EXPECT_NEAR(load_texture(folder / "a.png", ImageUse::scalar).at(0, 0, 0), 1.0f, 1e-6);
 }
 

@@ -18,7 +18,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-/// Voxels all different, in a box that crosses blocks and zero.
+/// A box of voxels that are all different. It spans several blocks, and indices on both sides of zero.
 DenseVolume box() {
     DenseVolume volume;
     volume.first = {-5, 3, -20}, volume.size = {21, 9, 30};
@@ -116,7 +116,7 @@ TEST(VolumeFile, VectorsComeBack) {
     expect_same(volume, load_volume(folder / "v.vdb", ""));
 }
 
-/// The inside of a level set, and boxes of one value, are tiles.
+/// The inside of a level set, and boxes of a single value, are stored as tiles.
 TEST(VolumeFile, ConstantRegionsComeBack) {
     TempFolder folder;
     DenseVolume volume;
@@ -147,7 +147,7 @@ TEST(VolumeFile, DoublesBecomeFloats) {
     EXPECT_EQ(load_volume(folder / "d.vdb", "").at(1, 2, 3, 0), 0.1f);
 }
 
-/// What kernels are tested against is what OpenVDB's own samplers give.
+/// The references that kernels are tested against must give the same as OpenVDB's own samplers.
 TEST(VolumeFile, ReferencesAgreeWithTheSamplersOfOpenVDB) {
     TempFolder folder;
     const DenseVolume volume = box();
@@ -166,7 +166,7 @@ TEST(VolumeFile, ReferencesAgreeWithTheSamplersOfOpenVDB) {
         EXPECT_NEAR(sample(0, 0, 0), want.value, 1e-6);
         const bool inside = std::abs(x - std::round(x)) > step && std::abs(y - std::round(y)) > step &&
                             std::abs(z - std::round(z)) > step;
-        if (!inside) continue;  // the slope jumps there
+        if (!inside) continue;  // on faces of cells the slope jumps
         EXPECT_NEAR((sample(step, 0, 0) - sample(-step, 0, 0)) / (2 * step), want.gradient.x, 1e-3);
         EXPECT_NEAR((sample(0, step, 0) - sample(0, -step, 0)) / (2 * step), want.gradient.y, 1e-3);
         EXPECT_NEAR((sample(0, 0, step) - sample(0, 0, -step)) / (2 * step), want.gradient.z, 1e-3);
@@ -218,7 +218,7 @@ TEST(VolumeFile, DamageIsToldOnOneLine) {
 
 TEST(VolumeFile, MissingAndWrongGridsAreToldWithWhatThereIs) {
     TempFolder folder;
-    save_volume(folder / "a.vdb", box());  // registers the types
+    save_volume(folder / "a.vdb", box());  // so that OpenVDB has registered its types
     write_grids(folder / "b.vdb", {grid_of<float>("density", 1), grid_of<float>("heat", 1), grid_of<int>("ids", 1)});
     const fs::path file = folder / "b.vdb";
     expect_refused(refusal(file, "densty"),

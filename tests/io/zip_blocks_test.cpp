@@ -16,7 +16,7 @@ using namespace test;
 constexpr int width = 33, height = 50, block = 16;
 const std::vector<std::string> names{"A", "N.X", "N.Y", "N.Z", "id"};
 
-/// Some channels of half, one of unsigned integers.
+/// Float channels, of which some are half, and a channel of unsigned integers.
 OIIO::ImageSpec mixed_spec(const char* compression) {
     auto spec = make_spec(width, height, names);
     spec.channelformats = {OIIO::TypeHalf, OIIO::TypeFloat, OIIO::TypeFloat, OIIO::TypeHalf, OIIO::TypeUInt32};
@@ -24,10 +24,10 @@ OIIO::ImageSpec mixed_spec(const char* compression) {
     return spec;
 }
 
-/// Different in every channel and pixel, below one: of unsigned integers the share of the largest.
+/// A number below 1 that differs in every channel and pixel. For unsigned integers it is a share of the largest one.
 float shares(int channel, int x, int y) { return numbered(channel, x, y) / 1000; }
 
-/// A channel as the library for image files reads it, pixel by pixel; unsigned integers as their bits.
+/// A channel as OpenImageIO reads it. Unsigned integers are given as their bits.
 std::vector<float> library_reads(const std::filesystem::path& file, int part, const std::string& name) {
     const auto input = OIIO::ImageInput::open(file.string());
     const auto spec = input->spec(part);
@@ -39,10 +39,11 @@ std::vector<float> library_reads(const std::filesystem::path& file, int part, co
     return values;
 }
 
-/// Reads the channels of those names interleaved and compares every bit.
+/// Reads some channels interleaved, and expects the same bits as OpenImageIO's.
 void expect_same(const std::filesystem::path& file, int part, const std::vector<int>& channels, int begin, int end) {
     ZipBlocks blocks(file);
-    const std::size_t stride = channels.size() + 1;  // and a channel in between that nobody writes
+    // One more than there are channels: the last number of each pixel must stay as it is.
+    const std::size_t stride = channels.size() + 1;
     std::vector<float> read(stride * width * static_cast<std::size_t>(end - begin), -7.0F);
     std::vector<BlockChannel> wanted;
     for (std::size_t i = 0; i < channels.size(); ++i)
@@ -62,7 +63,7 @@ void expect_same(const std::filesystem::path& file, int part, const std::vector<
 TEST(ZipBlocks, GiveTheBitsThatOpenImageIoGives) {
     TempFolder folder;
     std::mt19937 random(5);
-    const auto noise = [&](int, int, int) {  // does not get smaller: such blocks are stored as they are
+    const auto noise = [&](int, int, int) {  // cannot be compressed, so its blocks are stored as they are
         return std::bit_cast<float>(static_cast<std::uint32_t>(random()) % 0x7f000000U);
     };
     auto plain = make_spec(width, height, names);
@@ -94,7 +95,7 @@ TEST(ZipBlocks, OfEachPartAndFromTheDataWindowsTop) {
     expect_same(folder / "parts.exr", 1, {1, 4}, block, height);
 }
 
-/// Whether rows of "N.X" are read.
+/// Whether ZipBlocks reads these rows, or leaves them to OpenImageIO.
 bool reads(const std::filesystem::path& file, int begin, int end, std::string_view channel = "N.X", int part = 0) {
     std::vector<float> rows(std::size_t{width} * height);
     const BlockChannel wanted[] = {{channel, rows.data()}};
@@ -131,8 +132,10 @@ TEST(ZipBlocks, NoticeDamage) {
     }
     std::mt19937 random(9);
     int noticed = 0;
-    const auto blocks = bytes.find("screenWindowWidth") + 64;  // the header's last attribute, then where blocks lie
-    for (int trial = 0; trial < 400; ++trial) {  // nothing worse than not to notice: checksums cover most, not all
+    // Behind the last attribute of the header, and the table of where blocks are.
+    const auto blocks = bytes.find("screenWindowWidth") + 64;
+    // Damage may go unnoticed where no checksum covers it, but must not crash.
+    for (int trial = 0; trial < 400; ++trial) {
         std::string changed = bytes;
         changed[blocks + random() % (bytes.size() - blocks)] ^= static_cast<char>(1 + random() % 255);
         std::ofstream(damaged, std::ios::binary) << changed;

@@ -1,4 +1,5 @@
-// bins/bin_lists.clh: lists of a super block and its children, with room for them and without.
+// bins/bin_lists.clh: the lists of a super block and of its children, when there is room for them and when there is
+// not.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -25,7 +26,7 @@ struct Box {
     }
 };
 
-/// A list as the device has it.
+/// A list of decals, as it is stored on the device.
 struct List {
     std::vector<unsigned> entries;
     bool own = false;
@@ -37,7 +38,7 @@ struct Lists {
     std::vector<List> children;
 };
 
-/// Upright boxes, about which tests of boxes are exact, and the bounds of 16 children among them.
+/// Decals that are boxes parallel to the axes, for which the tests of boxes are exact, and 16 children among them.
 struct BinSetup {
     std::vector<Box> decals;
     DecalBounds bounds;
@@ -51,7 +52,7 @@ struct BinSetup {
             const V half{random.uniform(0.1L, 1), random.uniform(0.1L, 1), random.uniform(0.1L, 1)};
             const auto box = reference::decal_box(random.box(10), V{1, 0, 0}, V{0, 1, 0}, half);
             records.push_back(cases::projector_record({}, box));
-            const V center{box.center.x, -box.center.y, -box.center.z};  // in the axes of the camera below
+            const V center{box.center.x, -box.center.y, -box.center.z};  // right, down and forward of the camera below
             decals.push_back({center - half, center + half});
         }
         bounds = decal_bounds(records, Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1, 1));
@@ -66,7 +67,7 @@ struct BinSetup {
         }
     }
 
-    /// Decals of `from` that overlap a box, in order.
+    /// Those decals of `from` that overlap a box, in the same order.
     std::vector<unsigned> overlapping(const Box& box, const std::vector<unsigned>& from) const {
         std::vector<unsigned> out;
         for (const unsigned i : from)

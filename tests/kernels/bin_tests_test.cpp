@@ -1,4 +1,4 @@
-// bins/bin_tests.clh: numbers of tiles, boxes around them, and which decals may touch which.
+// bins/bin_tests.clh: the numbering of tiles, the boxes around them, and which decals may touch which tile.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -19,8 +19,8 @@ using V = reference::Vec<real>;
 TEST(BinTests, EveryPixelLiesInTheTileOfItsNumber) {
     ColumnKernel f;
     f.body =
-        "index tile = wr_tile_number(wr_index(x), wr_index(y), 3);\n"
-        "real left = 0, top = 0;\n"
+        "wr_index tile = wr_tile_number(wr_to_index(x), wr_to_index(y), 3);\n"
+        "wr_real left = 0, top = 0;\n"
         "wr_each_lane(k) {\n"
         "    uint2 corner = wr_tile_corner((uint)wr_lane(tile, k), 3);\n"
         "    wr_lane(left, k) = corner.x, wr_lane(top, k) = corner.y;\n}";
@@ -41,8 +41,8 @@ TEST(BinTests, EveryPixelLiesInTheTileOfItsNumber) {
 TEST(BinTests, TilesBelongToTheirBlocksAndSuperBlocks) {
     ColumnKernel f;
     f.body =
-        "index tile = wr_tile_number(wr_index(x), wr_index(y), 3);\n"
-        "real number = 0;\nwr_each_lane(k) wr_lane(number, k) = (WR_SCALAR)wr_lane(tile, k);";
+        "wr_index tile = wr_tile_number(wr_to_index(x), wr_to_index(y), 3);\n"
+        "wr_real number = 0;\nwr_each_lane(k) wr_lane(number, k) = (WR_SCALAR)wr_lane(tile, k);";
     f.outputs = {"number"};
     cases::Columns columns;
     for (int y = 0; y < 256; y += 8)
@@ -82,7 +82,7 @@ TEST(BinTests, ABoxHoldsTheValidPointsAndTheirSlack) {
     EXPECT_EQ(got[4][0], 1);
 }
 
-/// Which of 16 boxes each decal may touch, by the device.
+/// For each decal, which of the 16 boxes the device says that it may touch.
 std::vector<unsigned> touches(const std::vector<float>& decals, const std::vector<float>& bounds, std::size_t count) {
     const Device& device = test_device();
     const BuiltProgram built = build_program(
@@ -106,11 +106,12 @@ std::vector<unsigned> touches(const std::vector<float>& decals, const std::vecto
     return out;
 }
 
-/// Between world space and the axes of bounds, right, down and forward, of a camera that looks down -z.
+/// Between world space and the axes of bounds (right, down, forward) of a camera that looks along -z. It is its own
+/// inverse.
 V turned(V p) { return {p.x, -p.y, -p.z}; }
 
-/// Random decals and boxes near them. A box in which a point of the decal is found must not be missed; of the boxes
-/// that are not apart, most must have such a point.
+/// Random decals, and boxes near them. No box with a point of the decal may be missed, and most of the boxes that are
+/// said to touch must have such a point.
 TEST(BinTests, ADecalIsNeverMissedAndSeldomFoundForNothing) {
     constexpr std::size_t count = 300;
     std::vector<Projector> rows(count);

@@ -9,7 +9,7 @@
 #include "tests/cases/errors.h"
 #include "tests/kernels/kernel_function.h"
 
-/// Compares a kernel function with the answers of its cases, in every variant.
+/// Compares a kernel function with the answers of its cases, in every variant and on every number of lanes.
 namespace wrinkle::test {
 
 using cases::Cases;
@@ -17,14 +17,14 @@ using cases::real;
 using cases::V;
 using cases::V2;
 
-/// One answer of a function: where it is, how its error is measured, how large it may be.
+/// One answer of a function: where to find it, how to measure its error, and how large the error may be.
 struct Answer {
-    std::string name;                  ///< in Cases::want
-    std::vector<std::string> outputs;  ///< expressions: components of the answer
+    std::string name;                  ///< its key in Cases::want
+    std::vector<std::string> outputs;  ///< an expression for each component of the answer
     ErrorMeasure measure = ErrorMeasure::relative;
     double regular = 0, hard = 0;  ///< bounds of float runs
     double fp64 = 1e-12;           ///< bound of double runs
-    bool everywhere = false;       ///< in float, without the allowances of the cases
+    bool everywhere = false;       ///< in float, the bounds hold without the allowances of the cases
 };
 
 inline std::vector<std::string> xyz(const std::string& v) { return {v + ".x", v + ".y", v + ".z"}; }
@@ -34,11 +34,11 @@ inline std::string print(V v) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", d
 
 class Checker {
 public:
-    /// `body` gives the kernel text for float or double runs.
+    /// `body` returns the kernel's text.
     Checker(const Cases& cases, std::vector<Answer> answers, std::function<std::string(bool fp64)> body)
         : cases_(cases), answers_(std::move(answers)), body_(std::move(body)) {}
 
-    /// On every number of lanes against the bounds.
+    /// Runs on every number of lanes and compares the errors with the bounds.
     void run() {
         ASSERT_GT(cases_.size(), 0u) << cases_.name;
         for (const int lanes : {1, 4, 8, 16}) compare({lanes, false});

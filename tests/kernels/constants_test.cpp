@@ -1,4 +1,4 @@
-// constants.clh: the thresholds where functions use them.
+// constants.clh: the thresholds, tested by the functions that use them.
 #include <gtest/gtest.h>
 
 #include "resources/frame_constants.h"
@@ -7,7 +7,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// Expressions over one column v.
+/// Evaluates expressions of a column v.
 Results over(const std::vector<float>& v, const std::vector<std::string>& outputs, const std::string& body = {},
              const ColumnData& data = {}) {
     return run_kernel({body, outputs}, {{"v", v}}, {8, false}, data);
@@ -20,9 +20,9 @@ TEST(Constants, BackgroundStartsAtItsDepth) {
     EXPECT_EQ(over({last, 1e9f, 1e10f}, {"truth(wr_valid_depth(wr_load_floats(in_v, at)))"})[0], (Numbers{1, 0, 0}));
 }
 
-/// A ray within the tangent plane, and one beyond: finite, and continuous on each side.
+/// For rays within the tangent plane and beyond it, derivatives are finite, and continuous on either side.
 TEST(Constants, LeastCosineKeepsScreenDerivativesFinite) {
-    wr_frame frame{};
+    wr_camera frame{};
     frame.d0[2] = -1, frame.dx[0] = 0.001, frame.dy[1] = -0.001;
     frame.dx_cross_d0[1] = 0.001, frame.dx_cross_dy[2] = -1e-6;
     frame.dy_cross_d0[0] = 0.001, frame.dy_cross_dx[2] = 1e-6;
@@ -30,10 +30,11 @@ TEST(Constants, LeastCosineKeepsScreenDerivativesFinite) {
     ColumnData data;
     data.constants.assign(&frame.width, &frame.width + sizeof frame / sizeof(double));
     const std::string body =
-        "constant const wr_frame *frame = (constant const wr_frame *)constants;\n"
-        "vec3 n = wr_v3((real)(1), (real)(0), v), p = wr_v3((real)(0), (real)(0), (real)(-5)), a, b, c, d;\n"
-        "wr_screen_derivatives(frame, n, p, (real)(1), (real)(0), (real)(0), &a, &b);\n"
-        "wr_screen_derivatives_general(frame, n, p, (real)(0), (real)(0), &c, &d);";
+        "constant const wr_camera *camera = (constant const wr_camera *)constants;\n"
+        "wr_vec3 n = wr_v3((wr_real)(1), (wr_real)(0), v), p = wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(-5)), a, b, "
+        "c, d;\n"
+        "wr_screen_derivatives(camera, n, p, (wr_real)(1), (wr_real)(0), (wr_real)(0), &a, &b);\n"
+        "wr_screen_derivatives_general(camera, n, p, (wr_real)(0), (wr_real)(0), &c, &d);";
     const Results r =
         over({0, -0.0f, 1e-30f, -1e-30f, 1e-8f, 1e-45f},
              {"a.x", "a.y", "a.z", "b.x", "b.y", "b.z", "c.x", "c.y", "c.z", "d.x", "d.y", "d.z"}, body, data);
@@ -43,14 +44,14 @@ TEST(Constants, LeastCosineKeepsScreenDerivativesFinite) {
 
 TEST(Constants, LargestSlopeOfATangentNormal) {
     const Results r = over({0, 1e-30f, 1.0f / 256, 1.0f / 128, 1.0f / 64}, {"s.x", "s.y"},
-                           "vec2 s = wr_tangent_normal_slope(wr_v3((real)(-1), (real)(1), v));");
+                           "wr_vec2 s = wr_tangent_normal_slope(wr_v3((wr_real)(-1), (wr_real)(1), v));");
     EXPECT_EQ(r[0], (Numbers{128, 128, 128, 128, 64}));
     EXPECT_EQ(r[1], (Numbers{-128, -128, -128, -128, -64}));
 }
 
 TEST(Constants, TriplanarPlanesUnderTheBiasHaveNoWeight) {
     const Results r = over({0, 0.1f, 0.2f, 0.21f}, {"truth(w.x > 0)", "truth(w.z > 0)"},
-                           "vec3 w = wr_triplanar_weights(wr_v3(v, (real)(0), (real)(0.97f)), 3);");
+                           "wr_vec3 w = wr_triplanar_weights(wr_v3(v, (wr_real)(0), (wr_real)(0.97f)), 3);");
     EXPECT_EQ(r[0], (Numbers{0, 0, 0, 1}));
     EXPECT_EQ(r[1], (Numbers{1, 1, 1, 1}));
 }
@@ -63,8 +64,8 @@ TEST(Constants, RoughnessHasAFloorAndTheRatioABias) {
     const std::string body =
         "constant const wr_lighting *lighting = (constant const wr_lighting *)constants;\n"
         "constant const wr_light *lights = (constant const wr_light *)(lighting + 1);\n"
-        "vec3 up = wr_v3((real)(0), (real)(0), (real)(1));\n"
-        "vec3 lit = wr_light_surface(wr_zero3(), up, up, wr_zero3(), v, lighting, lights);";
+        "wr_vec3 up = wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(1));\n"
+        "wr_vec3 lit = wr_light_surface(wr_zero3(), up, up, wr_zero3(), v, lighting, lights);";
     wr_lighting lighting{};
     lighting.lights = 1, lighting.f0 = 1;
     wr_light sun{};

@@ -1,4 +1,4 @@
-// Every row of functions() keeps its documented errors, in every variant and on every number of lanes.
+// Every function of functions() keeps its documented errors, in every variant and on every number of lanes.
 #include <algorithm>
 #include <set>
 

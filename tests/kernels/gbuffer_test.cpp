@@ -26,10 +26,10 @@ TEST(GBuffer, ValidityIsDecidedFromBits) {
     for (const bool fp64 : {false, true})
         for (const int lanes : all_lanes) {
             const Results r = run_kernel(
-                {"floats fa = wr_load_floats(texels, at), fb = wr_load_floats(texels + stride, at), zero = 0;",
+                {"wr_floats fa = wr_load_floats(texels, at), fb = wr_load_floats(texels + stride, at), zero = 0;",
                  {"truth(wr_valid_depth(fa))", "truth(wr_valid_normal(fa, fb, zero))",
                   "truth(wr_valid_normal(zero, fa, fb))", "truth(wr_valid_position(fa, fb, zero))",
-                  "wr_real(wr_valid_or(fa, wr_finite(fa), 7))"}},
+                  "wr_to_real(wr_valid_or(fa, wr_finite(fa), 7))"}},
                 columns, {lanes, fp64}, planes);
             for (std::size_t i = 0; i < depth.size(); ++i) {
                 const float a = columns["a"][i], b = columns["b"][i];
@@ -43,7 +43,8 @@ TEST(GBuffer, ValidityIsDecidedFromBits) {
         }
 }
 
-/// Pixel centres of rows of any width, also narrower than the lanes, in bands that do not start at row 0.
+/// The pixels of a work-item have the right coordinates in rows of any width, also narrower than the lanes, and in
+/// bands that do not start at row 0.
 TEST(GBuffer, PixelsOfAWorkItem) {
     for (const int width : {1, 2, 3, 7, 16, 31, 97}) {
         const std::size_t pixels = static_cast<std::size_t>(width) * 11;
@@ -54,7 +55,7 @@ TEST(GBuffer, PixelsOfAWorkItem) {
             for (const int lanes : all_lanes) {
                 const Results r = run_kernel(
                     {"wr_pixels px = wr_pixels_of(get_global_id(0), 50, 20, (uint)constants[0]);",
-                     {"px.x", "px.y", "(real)((WR_SCALAR)(px.in - at))", "(real)((WR_SCALAR)(px.out - at))"}},
+                     {"px.x", "px.y", "(wr_real)((WR_SCALAR)(px.in - at))", "(wr_real)((WR_SCALAR)(px.out - at))"}},
                     columns, {lanes, fp64}, data);
                 for (std::size_t i = 0; i < pixels; ++i) {
                     ASSERT_EQ(r[0][i], static_cast<double>(i % width) + 0.5) << i << " of " << width << ", " << lanes;
@@ -76,7 +77,7 @@ cases::Cases face_viewer_cases() {
         if (seed % 4 == 0) p = (cross(n, random.unit()) + n * random.magnitude(-6, -2)) * random.magnitude(-3, 3);
         p = cases::Random::rounded(p);
         const real along = dot(normalize(n), normalize(p));
-        if (std::abs(along) < 3e-7L) continue;  // either answer is right
+        if (std::abs(along) < 3e-7L) continue;  // rounding decides: either answer is right
         c.add("face the viewer, seed " + std::to_string(seed), hard);
         c.in("n", n), c.in("p", p);
         c.out("normal", reference::face_viewer(normalize(n), normalize(-p)));
@@ -88,16 +89,17 @@ cases::Cases face_viewer_cases() {
 TEST(GBuffer, NormalsFaceTheViewer) {
     const cases::Cases c = face_viewer_cases();
     check(c,
-          "mask away;\n"
-          "vec3 r = wr_face_viewer(unit(n), p, &away);",
+          "wr_mask away;\n"
+          "wr_vec3 r = wr_face_viewer(unit(n), p, &away);",
           {{"normal", xyz("r"), ErrorMeasure::degrees, 2e-5, 2e-5},
            {"away", {"truth(away)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
-/// An eye at 1e6 metres: the difference is good to an ulp of itself, not of the eye.
+/// With an eye 1e6 metres away, a position relative to the eye is exact to an ulp of itself, not of the eye's
+/// coordinates.
 TEST(GBuffer, PositionsRelativeToTheEye) {
     cases::Cases c{.name = "positions"};
-    wr_frame frame{};
+    wr_camera frame{};
     const V eye{1234567.8901L, -54321.0625L, 3.14159265L}, d0{-0.5L, 0.25L, -1}, dx{0.001L, 0, 0},
         dy{0, -0.002L, 1e-5L};
     const V forward{0.6L, 0, -0.8L};
@@ -116,27 +118,28 @@ TEST(GBuffer, PositionsRelativeToTheEye) {
     }
     const double* first = &frame.width;
     c.data.constants.assign(first, first + sizeof frame / sizeof(double));
-    check(c, "constant const wr_frame *frame = (constant const wr_frame *)constants;",
+    check(c, "constant const wr_camera *camera = (constant const wr_camera *)constants;",
           {{"relative",
-            {"wr_eye_relative(frame, P).x", "wr_eye_relative(frame, P).y", "wr_eye_relative(frame, P).z"},
+            {"wr_eye_relative(camera, P).x", "wr_eye_relative(camera, P).y", "wr_eye_relative(camera, P).z"},
             ErrorMeasure::relative,
             1.2e-7,
             0,
             1e-9},
            {"ray",
-            {"wr_ray(frame, x, y).x", "wr_ray(frame, x, y).y", "wr_ray(frame, x, y).z"},
+            {"wr_ray(camera, x, y).x", "wr_ray(camera, x, y).y", "wr_ray(camera, x, y).z"},
             ErrorMeasure::relative,
             3e-7,
             0},
            {"parallel",
-            {"wr_parallel_position(frame, x, y, depth).x", "wr_parallel_position(frame, x, y, depth).y",
-             "wr_parallel_position(frame, x, y, depth).z"},
+            {"wr_parallel_position(camera, x, y, depth).x", "wr_parallel_position(camera, x, y, depth).y",
+             "wr_parallel_position(camera, x, y, depth).z"},
             ErrorMeasure::relative,
             5e-7,
             0}});
 }
 
-/// Steps to a pixel beside this one: good to their own terms, also where they are a ten thousandth of the distance.
+/// Steps to a neighbouring pixel are exact to the rounding of their own terms, also when they are as short as a ten
+/// thousandth of the distance.
 TEST(GBuffer, StepsToNeighbours) {
     cases::Cases c{.name = "steps"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -152,14 +155,14 @@ TEST(GBuffer, StepsToNeighbours) {
         c.in("ray", ray), c.in("along", along), c.in("from", from), c.in("to", to);
         c.out("planar", next * to - ray * from), c.out("distant", normalize(next) * to - normalize(ray) * from);
     }
-    check(c, "vec3 a = wr_planar_step(ray, along, from, to), b = wr_distant_step(ray, along, from, to);",
+    check(c, "wr_vec3 a = wr_planar_step(ray, along, from, to), b = wr_distant_step(ray, along, from, to);",
           {{"planar", xyz("a"), ErrorMeasure::absolute, 3e-7, 3e-7},
            {"distant", xyz("b"), ErrorMeasure::absolute, 6e-7, 6e-7}});
 }
 
-/// In pairs, positions have about twice the digits.
+/// As pairs of floats, positions have about twice as many digits.
 TEST(GBuffer, PositionsInPairs) {
-    wr_frame frame{};
+    wr_camera frame{};
     const V eye{1234567.8901L, -54321.0625L, 3.14159265L}, d0{-0.51L, 0.27L, -1.1L}, dx{0.0013L, 1e-4L, 0},
         dy{0, -0.0021L, 1e-5L};
     const auto put = [](double(&to)[3], V v) { to[0] = double(v.x), to[1] = double(v.y), to[2] = double(v.z); };
@@ -182,9 +185,9 @@ TEST(GBuffer, PositionsInPairs) {
     ColumnData data;
     data.constants.assign(&frame.width, &frame.width + sizeof frame / sizeof(double));
     ColumnKernel kernel{
-        "constant const wr_frame *frame = (constant const wr_frame *)constants;\n"
-        "wr_pair3 a = wr_position_pairs(frame, x, y, depth), b = wr_distant_position_pairs(frame, x, y, depth);\n"
-        "wr_pair3 c = wr_eye_relative_pairs(frame, P);",
+        "constant const wr_camera *camera = (constant const wr_camera *)constants;\n"
+        "wr_pair3 a = wr_position_pairs(camera, x, y, depth), b = wr_distant_position_pairs(camera, x, y, depth);\n"
+        "wr_pair3 c = wr_eye_relative_pairs(camera, P);",
         {}};
     for (const char* name : {"a", "b", "c"})
         for (const char* part : {"high", "low"})

@@ -6,7 +6,7 @@
 #include "tests/cases/cases.h"
 #include "tests/device/test_device.h"
 
-/// Runs pieces of kernel language over columns of numbers, so that every concept function can be tested by itself.
+/// Runs pieces of kernel text over columns of numbers, so that every kernel function can be tested by itself.
 namespace wrinkle::test {
 
 using cases::Columns;
@@ -29,7 +29,7 @@ Results run_as(const ColumnKernel& kernel, const Columns& columns, int lanes, co
     return results;
 }
 
-/// Planes that stay float in double runs, `stride` apart in `texels`; for at most 256 rows.
+/// Puts planes of at most 256 rows one after another into `texels`, which are float in double runs, too.
 inline ColumnData float_planes(const std::vector<std::vector<float>>& planes) {
     ColumnData data;
     for (std::vector<float> plane : planes) {
@@ -39,11 +39,11 @@ inline ColumnData float_planes(const std::vector<std::vector<float>>& planes) {
     return data;
 }
 
-/// One vector of numbers for each output. The kernel may use unit(n), a normal that is unit to the digits of `real`,
-/// and truth(m), a mask as a number.
+/// Runs a kernel and gives a vector of numbers for each output. Its text may use unit(n), which normalises a normal in
+/// double runs, and truth(m), which makes a mask a number.
 inline Results run_kernel(ColumnKernel kernel, const Columns& columns, Variant variant, const ColumnData& data = {}) {
     kernel.body = (variant.fp64 ? "#define unit(n) wr_normalize(n)\n" : "#define unit(n) (n)\n") +
-                  ("#define truth(m) ((m) ? (real)(1) : (real)(0))\n" + kernel.body);
+                  ("#define truth(m) ((m) ? (wr_real)(1) : (wr_real)(0))\n" + kernel.body);
     return variant.fp64 ? run_as<double>(kernel, columns, variant.lanes, data)
                         : run_as<float>(kernel, columns, variant.lanes, data);
 }

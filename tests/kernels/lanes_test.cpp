@@ -27,7 +27,7 @@ TEST(Lanes, LoadAndStoreKeepTheOrder) {
         }
 }
 
-/// Neighbours of the first and last pixels: what is outside reads as 0, and nothing else does.
+/// Neighbours of the first and the last pixels that lie outside of the plane read as 0, and only those do.
 TEST(Lanes, LoadNearStaysInside) {
     const std::size_t pixels = 37;
     std::vector<float> v = count(pixels);
@@ -37,10 +37,10 @@ TEST(Lanes, LoadNearStaysInside) {
             for (const int step : {-40, -17, -1, 0, 1, 5, 40}) {
                 ColumnData data = float_planes({v});
                 data.constants = {static_cast<double>(step), static_cast<double>(pixels)};
-                const Results r =
-                    run_kernel({"floats r = wr_load_near(texels, (long)at + (long)constants[0], (long)constants[1]);",
-                                {"wr_real(r)"}},
-                               {{"v", v}}, {lanes, fp64}, data);
+                const Results r = run_kernel(
+                    {"wr_floats r = wr_load_near(texels, (long)at + (long)constants[0], (long)constants[1]);",
+                     {"wr_to_real(r)"}},
+                    {{"v", v}}, {lanes, fp64}, data);
                 for (std::size_t i = 0; i < pixels; ++i) {
                     const long j = static_cast<long>(i) + step;
                     EXPECT_EQ(r[0][i], j >= 0 && j < long{pixels} ? j + 1.0 : 0.0)
@@ -65,7 +65,7 @@ TEST(Lanes, Log2) {
         for (const int lanes : all_lanes) {
             const Results r = run_kernel({"", {"wr_log2(v)"}}, {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
-                const double want = std::log2(double{v[i]});  // an ulp of the result is all that a large one has
+                const double want = std::log2(double{v[i]});  // large results are compared by their own ulp
                 EXPECT_NEAR(r[0][i], want, fp64 ? 1e-13 : 2e-7 + want * 6e-8) << v[i];
             }
         }
@@ -76,7 +76,7 @@ TEST(Lanes, AnyIsTrueWhereOneLaneIs) {
     v[5] = v[48] = 1;
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({"int found = wr_any(v > 0) ? 1 : 0;", {"(real)((WR_SCALAR)(found))"}},
+            const Results r = run_kernel({"int found = wr_any(v > 0) ? 1 : 0;", {"(wr_real)((WR_SCALAR)(found))"}},
                                          {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
                 const std::size_t n = static_cast<std::size_t>(lanes), group = i / n;
@@ -85,14 +85,14 @@ TEST(Lanes, AnyIsTrueWhereOneLaneIs) {
         }
 }
 
-/// A comparison is 1 on one lane and -1 on several; masks of both kinds select, combine and negate alike.
+/// True is 1 on one lane and -1 on several. Masks of both kinds select, combine and negate alike.
 TEST(Lanes, MasksSelectCombineAndNegate) {
     const Columns columns{{"a", {0, 1, 2, 3}}, {"b", {3, 2, 1, 0}}};
     for (const bool fp64 : precisions)
         for (const int lanes : all_lanes) {
-            const Results r = run_kernel({"mask less = a < b, one = a == 1;",
+            const Results r = run_kernel({"wr_mask less = a < b, one = a == 1;",
                                           {"truth(less)", "truth(less & one)", "truth(less | (a == 3))", "truth(!less)",
-                                           "truth(wr_mask(wr_bits(wr_load_floats(texels, at)) == 0))"}},
+                                           "truth(wr_to_mask(wr_bits(wr_load_floats(texels, at)) == 0))"}},
                                          columns, {lanes, fp64}, float_planes({columns.at("a")}));
             EXPECT_EQ(r[0], (std::vector<double>{1, 1, 0, 0}));
             EXPECT_EQ(r[1], (std::vector<double>{0, 1, 0, 0}));

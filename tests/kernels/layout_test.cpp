@@ -1,4 +1,4 @@
-// layout.h: the host's structs and the device's have the same members in the same places.
+// layout.h: structs have the same members at the same places on the host and on the device.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -9,7 +9,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// A member as kernel text, and what the host finds in it when number i of the struct is i + 1.
+/// A member as kernel text, and the number that the host finds in it when the struct's numbers are 1, 2, 3 and so on.
 struct Member {
     std::string text;
     double value;
@@ -46,8 +46,8 @@ void check_layout(const std::string& type, const std::vector<Member>& members, s
             ColumnKernel f;
             f.body = fmt::format("{0} const {1} *s = ({0} const {1} *){2};", memory, type,
                                  std::string(memory) == "constant" ? "constants" : "records");
-            f.outputs = {fmt::format("(real)(sizeof({}) / sizeof(WR_SCALAR))", type)};
-            for (const Member& m : members) f.outputs.push_back(fmt::format("(real)({})", m.text));
+            f.outputs = {fmt::format("(wr_real)(sizeof({}) / sizeof(WR_SCALAR))", type)};
+            for (const Member& m : members) f.outputs.push_back(fmt::format("(wr_real)({})", m.text));
             const Results r = run_kernel(f, {{"nothing", {0}}}, {8, fp64}, data);
             EXPECT_EQ(r[0][0], static_cast<double>(members.size())) << type;
             for (std::size_t i = 0; i < members.size(); ++i)
@@ -56,14 +56,14 @@ void check_layout(const std::string& type, const std::vector<Member>& members, s
 }
 
 TEST(Layout, Frame) {
-    const auto s = counted<wr_frame>();
+    const auto s = counted<wr_camera>();
     std::vector<Member> members;
     MEMBER(width), MEMBER(height), MEMBER(eye_high), MEMBER(eye_low), MEMBER(d0), MEMBER(dx), MEMBER(dy);
     MEMBER(dx_cross_d0), MEMBER(dx_cross_dy), MEMBER(dy_cross_d0), MEMBER(dy_cross_dx);
     MEMBER(c0), MEMBER(c1), MEMBER(c2), MEMBER(c3), MEMBER(w), MEMBER(forward);
     MEMBER(d0_low), MEMBER(dx_low), MEMBER(dy_low);
     MEMBER(c0_low), MEMBER(c1_low), MEMBER(c2_low), MEMBER(c3_low), MEMBER(w_low);
-    check_layout("wr_frame", members, sizeof s);
+    check_layout("wr_camera", members, sizeof s);
 }
 
 TEST(Layout, Projector) {

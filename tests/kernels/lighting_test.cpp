@@ -9,8 +9,8 @@ namespace {
 const std::string light_it =
     "constant const wr_lighting *lighting = (constant const wr_lighting *)constants;\n"
     "constant const wr_light *lights = (constant const wr_light *)(lighting + 1);\n"
-    "vec3 albedo = wr_v3((real)(0.5f), (real)(0.25f), (real)(0.75f));\n"
-    "vec3 lit = wr_light_surface(p, unit(n), unit(v), albedo, roughness, lighting, lights);";
+    "wr_vec3 albedo = wr_v3((wr_real)(0.5f), (wr_real)(0.25f), (wr_real)(0.75f));\n"
+    "wr_vec3 lit = wr_light_surface(p, unit(n), unit(v), albedo, roughness, lighting, lights);";
 
 TEST(Lighting, RadianceOfThreeLights) {
     check(cases::lighting_cases(), light_it,
@@ -22,7 +22,7 @@ TEST(Lighting, TwoNormalsAtOnce) {
     check(
         cases::lighting_cases(),
         light_it +
-            "vec3 base, both = wr_light_surface(p, unit(n), unit(m), unit(v), albedo, roughness, lighting, "
+            "wr_vec3 base, both = wr_light_surface(p, unit(n), unit(m), unit(v), albedo, roughness, lighting, "
             "lights, &base);",
         {{"lit", xyz("both"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative, 1e-11},
          {"base", xyz("base"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative,
@@ -59,7 +59,7 @@ TEST(Lighting, RatioIsBounded) {
             c.out("ratio", reference::relight_ratio<real>(1, static_cast<float>(now), static_cast<float>(old), 4));
         }
     c.data.constants = {4};
-    check(c, "real ratio = wr_relight_ratio(now, old, constants[0]);",
+    check(c, "wr_real ratio = wr_relight_ratio(now, old, constants[0]);",
           {{"ratio", {"ratio"}, ErrorMeasure::relative, 0, 5e-7}});
 }
 

@@ -20,7 +20,7 @@ TEST(Mask, ObjectIndex) {
     }
 }
 
-/// Ids are bits: NaN ids match themselves, -0 is not 0, a denormal id is not flushed.
+/// Ids are compared as bits: a NaN matches itself, -0 is not 0, and denormals are not flushed to 0.
 TEST(Mask, CryptomatteComparesBits) {
     const std::uint32_t ids[] = {0x3f800000u,
                                  0x7fc00001u,

@@ -1,4 +1,4 @@
-// sources/noise_family.clh, sources/cellular.clh: what the rows of the table of functions do not show.
+// sources/noise_family.clh, sources/cellular.clh: what functions_test.cpp does not test.
 #include "tests/cases/noise.h"
 #include "tests/kernels/check.h"
 #include "tests/reference/noise_means.h"
@@ -24,7 +24,7 @@ TEST(Cellular, IsZeroAndFlatOnAFeaturePoint) {
            {"gradient", xyz("n.gradient"), ErrorMeasure::absolute, 0, 0}});
 }
 
-/// Far points in small cells: in pairs a point keeps its place in the cell to the digits of a float.
+/// A far point in a small cell, given as a pair of floats, has its place within the cell to all digits of a float.
 TEST(Lattice, PairsKeepTheDigitsOfFarPoints) {
     cases::Cases c{.name = "lattice point"};
     c.data.constants_per_row = 8;
@@ -45,7 +45,7 @@ TEST(Lattice, PairsKeepTheDigitsOfFarPoints) {
     ColumnKernel kernel{"wr_lattice_point point = wr_lattice_at(wr_pairs(p, rest), constants, constants + 4);",
                         xyz("point.cell")};
     for (const std::string& part : xyz("point.part")) kernel.outputs.push_back(part);
-    for (const int lanes : {1, 4, 8, 16}) {  // in double the constants come in one piece
+    for (const int lanes : {1, 4, 8, 16}) {  // float only: in double, constants are not split into pairs
         const Results got = run_kernel(kernel, c.inputs, {lanes, false}, c.data);
         for (std::size_t row = 0; row < c.size(); ++row) {
             const V at = cases::value_at(got, 0, 3, row) + cases::value_at(got, 3, 3, row);
@@ -64,7 +64,7 @@ TEST(NoiseFamily, MeansAreThoseOfTheReference) {
         const auto want = reference::noise_means<double>(layer);
         const Results got =
             run_kernel({fmt::format("wr_noise_means m = wr_noise_mean((wr_noise){{.basis = {}}});", basis),
-                        {"(real)(m.value)", "(real)(m.magnitude)", "(real)(m.square)"}},
+                        {"(wr_real)(m.value)", "(wr_real)(m.magnitude)", "(wr_real)(m.square)"}},
                        {{"unused", {0}}}, {1, false});
         EXPECT_FLOAT_EQ(static_cast<float>(got[0][0]), static_cast<float>(want.value)) << basis;
         EXPECT_FLOAT_EQ(static_cast<float>(got[1][0]), static_cast<float>(want.magnitude)) << basis;

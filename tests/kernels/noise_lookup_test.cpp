@@ -11,12 +11,14 @@ using reference::perlin_permutation;
 
 TEST(NoiseLookup, GivesHashesAndDirectionsOnAnyLanes) {
     std::vector<float> numbers;
-    for (int i = -300; i < 511; ++i) numbers.push_back(static_cast<float>(i));  // any number has its low 8 bits
+    // Only the low 8 bits count, also of negative numbers.
+    for (int i = -300; i < 511; ++i) numbers.push_back(static_cast<float>(i));
     for (const auto& [lanes, fp64] :
          {std::pair{1, false}, {4, false}, {8, false}, {16, false}, {1, true}, {8, true}, {16, true}}) {
         const Results r = run_kernel(
-            {"index hash = wr_perlin_lookup(wr_index(i)); vec3 a, b; wr_perlin_corners(wr_index(i), &a, &b);",
-             {"wr_real(hash & 255)", "wr_real(hash >> 8 & 255)", "a.x", "a.y", "a.z", "b.x", "b.y", "b.z"}},
+            {"wr_index hash = wr_perlin_lookup(wr_to_index(i)); wr_vec3 a, b; wr_perlin_corners(wr_to_index(i), &a, "
+             "&b);",
+             {"wr_to_real(hash & 255)", "wr_to_real(hash >> 8 & 255)", "a.x", "a.y", "a.z", "b.x", "b.y", "b.z"}},
             {{"i", numbers}}, {lanes, fp64});
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             const auto number = static_cast<std::size_t>(static_cast<int>(numbers[i]) & 255);

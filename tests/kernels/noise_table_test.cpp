@@ -17,7 +17,7 @@ std::vector<float> count(int n) {
 
 TEST(NoiseTable, HashHoldsNeighboursOfThePermutation) {
     const Results r =
-        run_kernel({"ushort entry = wr_perlin_hash[(int)i];", {"(real)(entry & 255)", "(real)(entry >> 8)"}},
+        run_kernel({"ushort entry = wr_perlin_hash[(int)i];", {"(wr_real)(entry & 255)", "(wr_real)(entry >> 8)"}},
                    {{"i", count(256)}}, {1, false});
     for (std::size_t i = 0; i < 256; ++i) {
         EXPECT_EQ(r[0][i], perlin_permutation[i & 255]) << i;
@@ -26,19 +26,19 @@ TEST(NoiseTable, HashHoldsNeighboursOfThePermutation) {
 }
 
 TEST(NoiseTable, ChoicesHoldTheLowBitsOfNeighbours) {
-    const Results r = run_kernel(
-        {"ushort entry = wr_perlin_choice[(int)i];",
-         {"(real)(entry & 15)", "(real)(entry >> 4 & 15)", "(real)(entry >> 8 & 15)", "(real)(entry >> 12)"}},
-        {{"i", count(128)}}, {1, false});
+    const Results r = run_kernel({"ushort entry = wr_perlin_choice[(int)i];",
+                                  {"(wr_real)(entry & 15)", "(wr_real)(entry >> 4 & 15)", "(wr_real)(entry >> 8 & 15)",
+                                   "(wr_real)(entry >> 12)"}},
+                                 {{"i", count(128)}}, {1, false});
     for (std::size_t i = 0; i < 128; ++i)
         for (std::size_t k = 0; k < 4; ++k)
             EXPECT_EQ(r[k][i], perlin_permutation[(i + 128 * (k / 2) + k % 2) & 255] & 15) << i << ", " << k;
 }
 
 TEST(NoiseTable, GradientsAreTheDirectionsOfTheHash) {
-    const Results r =
-        run_kernel({"vec3 g = wr_perlin_corner((index)((int)wr_perlin_gradient[(int)i]));", {"g.x", "g.y", "g.z"}},
-                   {{"i", count(257)}}, {1, false});
+    const Results r = run_kernel(
+        {"wr_vec3 g = wr_perlin_corner((wr_index)((int)wr_perlin_gradient[(int)i]));", {"g.x", "g.y", "g.z"}},
+        {{"i", count(257)}}, {1, false});
     for (std::size_t i = 0; i < 257; ++i) {
         const auto want = reference::perlin_direction<double>(perlin_permutation[i & 255]);
         EXPECT_EQ(r[0][i], want.x) << i;

@@ -1,4 +1,4 @@
-// sources/object_normal.clh, sources/derivative_map.clh: what reads textures; the rest are rows of functions().
+// sources/object_normal.clh, sources/derivative_map.clh: what reads textures. (functions_test.cpp tests the rest.)
 #include "tests/cases/height_map.h"
 
 #include "tests/kernels/check.h"
@@ -33,14 +33,14 @@ TEST(ObjectNormal, RepeatsOrClamps) {
     }
     check(c,
           "wr_texture repeat = wr_texture_at(texels, textures, 0), clamp = wr_texture_at(texels, textures, 1);\n"
-          "vec3 a = wr_object_normal(repeat, st, lod), b = wr_object_normal_clamp(clamp, st, lod);",
+          "wr_vec3 a = wr_object_normal(repeat, st, lod), b = wr_object_normal_clamp(clamp, st, lod);",
           {{"repeated", xyz("a"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
            {"clamped", xyz("b"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
            {"across", {"wr_texels_across(repeat)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7, 1e-7}});
 }
 
-/// The rows that a plan gives a turned, stretched or mirrored object: what its cofactors make of a normal, against the
-/// cross product of two tangents that the matrix moves.
+/// For turned, stretched or mirrored objects a plan computes rows, of cofactors, that turn a normal. The result must be
+/// the direction of the cross product of two tangents that the matrix itself has moved.
 TEST(ObjectNormal, RowsTurnAVector) {
     cases::Cases c{.name = "turned normals"};
     for (unsigned seed = 1; seed <= 200; ++seed) {
@@ -55,7 +55,7 @@ TEST(ObjectNormal, RowsTurnAVector) {
         c.in("a", rows[0]), c.in("b", rows[1]), c.in("c", rows[2]), c.in("n", n);
         c.out("turned", want);
     }
-    check(c, "vec3 r = wr_turn(a, b, c, n);", {{"turned", xyz("r"), ErrorMeasure::degrees, 2e-5, 2e-5, 1e-5}});
+    check(c, "wr_vec3 r = wr_turn(a, b, c, n);", {{"turned", xyz("r"), ErrorMeasure::degrees, 2e-5, 2e-5, 1e-5}});
 }
 
 }  // namespace

@@ -4,19 +4,19 @@
 namespace wrinkle::test {
 namespace {
 
-/// A pair's value when what is known of it to float's digits is taken off: that shows its low part.
+/// Expressions for what is left of a pair when a number of float's precision is subtracted: its low digits.
 std::vector<std::string> rest(const std::string& pair, const std::string& known) {
     return {fmt::format("(({0}.high - {1}) + {0}.low)", pair, known)};
 }
 
-/// Sums and products of which a float keeps half the digits: a pair keeps the others as well.
+/// Of sums and products that need twice the digits of a float, a pair keeps all.
 TEST(Pair, KeepsTwiceTheDigits) {
     cases::Cases c{.name = "pairs"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
         cases::Random random(seed);
         const auto number = [&] { return random.uniform(0.5L, 2) * (random.below(2) ? 1 : -1); };
         const real a = number(), s = number(), b = number(), t = number();
-        // Low parts as pairs have them: within half an ulp of the high ones.
+        // The low part of a pair is at most half an ulp of its high part.
         const auto low = [&](real high) { return real{static_cast<float>(high * random.uniform(-5e-8L, 5e-8L))}; };
         const real al = low(a), sl = low(s), bl = low(b), tl = low(t);
         c.add("pairs, seed " + std::to_string(seed), seed % 2 == 0);
@@ -54,11 +54,11 @@ TEST(Pair, DotProductsThatCancel) {
     }
     check(c,
           "wr_pair3 p = {{b.x, low.x}, {b.y, low.y}, {b.z, low.z}};\n"
-          "real d = wr_dot2(a, p);",
+          "wr_real d = wr_dot2(a, p);",
           {{"dot", {"d"}, ErrorMeasure::absolute, 1.3e-7, 2e-14}});
 }
 
-/// What the host split in two is one number in a double program.
+/// A constant that the host has split in two becomes one number in a double program.
 TEST(Pair, ConstantsOfTheHost) {
     const double third = 1.0 / 3, high = static_cast<float>(third);
     ColumnData data;

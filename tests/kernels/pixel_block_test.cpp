@@ -9,7 +9,8 @@
 namespace wrinkle::test {
 namespace {
 
-/// Every pixel of frames of any size that blocks fit into is evaluated, with its own coordinates and place.
+/// In frames of any size that blocks fit into, every pixel is evaluated, with the right coordinates and place in
+/// memory.
 TEST(PixelBlock, BlocksCoverTheFrame) {
     for (const int lanes : {8, 16})
         for (const int width : {4, 5, 7, 16, 31})
@@ -44,7 +45,7 @@ TEST(PixelBlock, BlocksCoverTheFrame) {
             }
 }
 
-/// Without rows they are the pixels of wr_pixels_of, each once.
+/// Where blocks do not fit, pixels are those of wr_pixels_of, each once.
 TEST(PixelBlock, RowsWhereBlocksDoNotFit) {
     constexpr std::size_t width = 3, pixels = width * 32;
     std::vector<float> plane(50 + pixels);

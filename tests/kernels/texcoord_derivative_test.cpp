@@ -8,11 +8,12 @@ namespace {
 
 TEST(TexcoordDerivative, DifferenceOfNeighbours) {
     check(cases::neighbour_cases(),
-          "vec2 half_half = wr_v2((real)(0.5f), (real)(0.5f));\n"
-          "wr_neighbour here = {half_half, wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3, here_valid != 0};\n"
+          "wr_vec2 half_half = wr_v2((wr_real)(0.5f), (wr_real)(0.5f));\n"
+          "wr_neighbour here = {half_half, wr_zero3(), wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(1)), 3, here_valid "
+          "!= 0};\n"
           "wr_neighbour before = {beforeUV, beforeP, beforeN, before_object, before_valid != 0};\n"
           "wr_neighbour after = {afterUV, afterP, afterN, after_object, after_valid != 0};\n"
-          "mask usable = dp.x == dp.x;\n"
+          "wr_mask usable = dp.x == dp.x;\n"
           "wr_texcoord_change d = wr_texcoord_difference(here, before, after, dp, &usable);",
           {{"difference", xy("d.uv"), ErrorMeasure::absolute, 1e-8, 1e-8},
            {"step", xyz("d.p"), ErrorMeasure::absolute, 1e-8, 1e-8},
@@ -20,27 +21,28 @@ TEST(TexcoordDerivative, DifferenceOfNeighbours) {
 }
 
 TEST(HeightDerivative, DifferenceOfNeighbours) {
-    check(
-        cases::height_neighbour_cases(),
-        "wr_neighbour here = {wr_v2(here_height, here_height), wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3,\n"
-        "                     here_valid != 0};\n"
-        "wr_neighbour before = {wr_v2(before_height, before_height), beforeP, beforeN, before_object,\n"
-        "                       before_valid != 0};\n"
-        "wr_neighbour after = {wr_v2(after_height, after_height), afterP, afterN, after_object, after_valid != 0};\n"
-        "mask usable = dp.x == dp.x;\n"
-        "real d = wr_height_difference(here, before, after, dp, &usable);",
-        {{"difference", {"d"}, ErrorMeasure::absolute, 3e-7, 3e-7},
-         {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
+    check(cases::height_neighbour_cases(),
+          "wr_neighbour here = {wr_v2(here_height, here_height), wr_zero3(), wr_v3((wr_real)(0), (wr_real)(0), "
+          "(wr_real)(1)), 3,\n"
+          "                     here_valid != 0};\n"
+          "wr_neighbour before = {wr_v2(before_height, before_height), beforeP, beforeN, before_object,\n"
+          "                       before_valid != 0};\n"
+          "wr_neighbour after = {wr_v2(after_height, after_height), afterP, afterN, after_object, after_valid != 0};\n"
+          "wr_mask usable = dp.x == dp.x;\n"
+          "wr_real d = wr_height_difference(here, before, after, dp, &usable);",
+          {{"difference", {"d"}, ErrorMeasure::absolute, 3e-7, 3e-7},
+           {"usable", {"truth(usable)"}, ErrorMeasure::absolute, 0, 0, 0}});
 }
 
 TEST(NormalDerivative, DifferenceOfNeighbours) {
-    check(cases::normal_neighbour_cases(),
-          "vec2 none = wr_v2((real)(0), (real)(0));\n"
-          "wr_neighbour here = {none, wr_zero3(), wr_v3((real)(0), (real)(0), (real)(1)), 3, here_valid != 0};\n"
-          "wr_neighbour before = {none, beforeP, beforeN, before_object, before_valid != 0};\n"
-          "wr_neighbour after = {none, afterP, afterN, after_object, after_valid != 0};\n"
-          "vec3 d = wr_normal_difference(here, before, after, dp);",
-          {{"difference", xyz("d"), ErrorMeasure::absolute, 3e-7, 3e-7}});
+    check(
+        cases::normal_neighbour_cases(),
+        "wr_vec2 none = wr_v2((wr_real)(0), (wr_real)(0));\n"
+        "wr_neighbour here = {none, wr_zero3(), wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(1)), 3, here_valid != 0};\n"
+        "wr_neighbour before = {none, beforeP, beforeN, before_object, before_valid != 0};\n"
+        "wr_neighbour after = {none, afterP, afterN, after_object, after_valid != 0};\n"
+        "wr_vec3 d = wr_normal_difference(here, before, after, dp);",
+        {{"difference", xyz("d"), ErrorMeasure::absolute, 3e-7, 3e-7}});
 }
 
 TEST(TexcoordDerivative, LinearMaps) {

@@ -6,7 +6,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// One picture of odd size, stored with one, two and three channels, repeated.
+/// A picture of odd size that repeats, as textures of one, two and three channels.
 struct Picture {
     cases::Pyramid pyramid;
     cases::Cases cases{.name = "texture samples"};
@@ -21,7 +21,7 @@ struct Picture {
         };
         cases::add_texture(this->cases.data, pyramid, 1, texel);
         cases::add_texture(this->cases.data, pyramid, 2, texel);
-        cases::add_texture(this->cases.data, pyramid, 4, texel);  // three channels take four floats
+        cases::add_texture(this->cases.data, pyramid, 4, texel);  // a texel of three channels is stored in four floats
     }
 };
 
@@ -41,10 +41,10 @@ TEST(Texture, SamplesAreTrilinear) {
         c.out("three", V{channel(0), channel(1), channel(2)});
     }
     check(c,
-          "real s = wr_repeat(st.x), v = wr_repeat(st.y);\n"
-          "real one = wr_texture_sample1(wr_texture_at(texels, textures, 0), s, v, lod);\n"
-          "vec2 two = wr_texture_sample2(wr_texture_at(texels, textures, 1), s, v, lod);\n"
-          "vec3 three = wr_texture_sample3(wr_texture_at(texels, textures, 2), s, v, lod);",
+          "wr_real s = wr_repeat(st.x), v = wr_repeat(st.y);\n"
+          "wr_real one = wr_texture_sample1(wr_texture_at(texels, textures, 0), s, v, lod);\n"
+          "wr_vec2 two = wr_texture_sample2(wr_texture_at(texels, textures, 1), s, v, lod);\n"
+          "wr_vec3 three = wr_texture_sample3(wr_texture_at(texels, textures, 2), s, v, lod);",
           {{"one", {"one"}, ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
            {"two", xy("two"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7},
            {"three", xyz("three"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
@@ -64,7 +64,7 @@ TEST(Texture, LevelsLieWithinThePyramidForAnyDerivative) {
     check(c,
           "wr_texture t = wr_texture_at(texels, textures, 0);\n"
           "wr_levels l = wr_texture_levels(t, wr_texture_lod(t, dx, dy));",
-          {{"lod", {"wr_real(l.fine) + l.weight"}, ErrorMeasure::absolute, 2e-6, 2e-6}});
+          {{"lod", {"wr_to_real(l.fine) + l.weight"}, ErrorMeasure::absolute, 2e-6, 2e-6}});
 }
 
 /// A level outside would read foreign memory.
@@ -80,7 +80,7 @@ TEST(Texture, LevelsLieWithinThePyramidForAnyLod) {
         c.in("lod", lod), c.out("levels", levels);
     }
     check(c, "wr_levels l = wr_texture_levels(wr_texture_at(texels, textures, 0), lod);",
-          {{"levels", {"wr_real(l.fine)", "wr_real(l.coarse)"}, ErrorMeasure::absolute, 0, 0}});
+          {{"levels", {"wr_to_real(l.fine)", "wr_to_real(l.coarse)"}, ErrorMeasure::absolute, 0, 0}});
 }
 
 /// Coordinates stay within the texture, whatever they are: an index outside would read foreign memory.

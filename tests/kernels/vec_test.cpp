@@ -4,7 +4,8 @@
 namespace wrinkle::test {
 namespace {
 
-/// Products and sums that cancel to nearly nothing: long double holds products of floats exactly.
+/// Sums of products that cancel to nearly nothing. The truth is computed in long double, which holds products of floats
+/// exactly.
 TEST(Vec, CompensatedFormsKeepTheirDigitsWhereTermsCancel) {
     cases::Cases c{.name = "compensated forms"};
     for (unsigned seed = 1; seed <= 400; ++seed) {
@@ -25,11 +26,12 @@ TEST(Vec, CompensatedFormsKeepTheirDigitsWhereTermsCancel) {
         c.out("dot2", dot(a, o));
         c.out("triple", dot(n, cross(a, b)));
     }
-    check(c, "vec3 axb = wr_cross(a, b);",
+    check(c, "wr_vec3 axb = wr_cross(a, b);",
           {{"dop", {"wr_dop(a.x, b.y, a.y, b.x)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7},
            {"cross", xyz("axb"), ErrorMeasure::relative, 1.2e-7, 1.2e-7},
            {"dot2", {"wr_dot2(a, o)"}, ErrorMeasure::relative, 1.2e-7, 1.2e-7}});
-    for (std::size_t row = 0; row < c.size(); ++row) {  // twice the precision is not more than that
+    // Compensation doubles the digits. Where more of them cancel than that, a larger error is allowed.
+    for (std::size_t row = 0; row < c.size(); ++row) {
         const real terms = length(c.vec(row, "n")) * length(c.vec(row, "a")) * length(c.vec(row, "b"));
         c.allowance[row] = std::max(real{1}, 1e-7L * terms / std::abs(c.want["triple"][row].x));
     }
@@ -55,11 +57,11 @@ TEST(Vec, NormalizeOfAnyLength) {
     add("normalize the largest", V{largest, -largest, largest});
     add("normalize the smallest", V{0, 1e-45L, 0});
     add("normalize zero", V{});
-    check(c, "vec3 r = wr_normalize(v); real p = wr_prescale(wr_largest(v)) * wr_largest(v);",
+    check(c, "wr_vec3 r = wr_normalize(v); wr_real p = wr_prescale(wr_largest(v)) * wr_largest(v);",
           {{"unit", xyz("r"), ErrorMeasure::absolute, 0, 2.4e-7}, {"unit", xyz("r"), ErrorMeasure::degrees, 0, 1e-5}});
 }
 
-/// Stored normals; short, long and broken ones do not change what others in their lanes get.
+/// Normals as G-buffers store them. Short, long and broken ones do not change the results of other lanes.
 TEST(Vec, RenormalizeOfNearlyUnitVectors) {
     cases::Cases c{.name = "renormalize"};
     for (unsigned seed = 1; seed <= 600; ++seed) {
@@ -70,22 +72,23 @@ TEST(Vec, RenormalizeOfNearlyUnitVectors) {
         c.add("renormalize, seed " + std::to_string(seed), hard);
         c.in("v", v), c.out("unit", normalize(v));
     }
-    check(c, "vec3 r = wr_renormalize(v);",
+    check(c, "wr_vec3 r = wr_renormalize(v);",
           {{"unit", xyz("r"), ErrorMeasure::absolute, 1.2e-7, 2.4e-7},
            {"unit", xyz("r"), ErrorMeasure::degrees, 4e-6, 1e-5}});
     Columns columns;
     for (const char axis : {'x', 'y', 'z'})
         for (std::size_t i = 0; i < c.size(); ++i)
             columns[std::string("v.") + axis].push_back(c.inputs.at(std::string("v.") + axis)[i]);
-    const Results alone = run_kernel({"vec3 r = wr_renormalize(v);", xyz("r")}, columns, {1, false});
-    EXPECT_EQ(run_kernel({"vec3 r = wr_renormalize(v);", xyz("r")}, columns, {16, false}), alone);
+    const Results alone = run_kernel({"wr_vec3 r = wr_renormalize(v);", xyz("r")}, columns, {1, false});
+    EXPECT_EQ(run_kernel({"wr_vec3 r = wr_renormalize(v);", xyz("r")}, columns, {16, false}), alone);
 }
 
 TEST(Vec, NonzeroWhereAComponentIs) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Columns columns{
         {"v.x", {0, -0.0f, 1e-30f, 0, 0, nan}}, {"v.y", {0, 0, 0, -2, 0, 0}}, {"v.z", {0, -0.0f, 0, 0, 3, 0}}};
-    const Results r = run_kernel({"real r = wr_nonzero(v) ? (real)(1) : (real)(0);", {"r"}}, columns, {8, false});
+    const Results r =
+        run_kernel({"wr_real r = wr_nonzero(v) ? (wr_real)(1) : (wr_real)(0);", {"r"}}, columns, {8, false});
     EXPECT_EQ(r[0], (std::vector<double>{0, 0, 1, 1, 1, 1}));
 }
 
@@ -122,7 +125,7 @@ TEST(Vec, SoundTellsFiniteVectors) {
 TEST(Vec, RampIsClamped) {
     const Columns columns{{"v", {-5, 0, 1, 1.5f, 2, 2.5f, 3, 99}}};
     for (const int lanes : {1, 4, 8, 16})
-        EXPECT_EQ(run_kernel({"", {"wr_ramp(v, (real)(1), (real)(3))"}}, columns, {lanes, false})[0],
+        EXPECT_EQ(run_kernel({"", {"wr_ramp(v, (wr_real)(1), (wr_real)(3))"}}, columns, {lanes, false})[0],
                   (std::vector<double>{0, 0, 0, 0.25, 0.5, 0.75, 1, 1}));
 }
 

@@ -1,4 +1,4 @@
-// Bump by given tangents, against what a baker of mikkTSpace normal maps expects.
+// Bumps with the renderer's tangents, against the normal that mikkTSpace maps are baked for.
 #include "tests/cases/mikktspace.h"
 #include "tests/kernels/check.h"
 
@@ -9,9 +9,9 @@ class MikkTSpace : public testing::TestWithParam<std::string> {};
 
 TEST_P(MikkTSpace, SurfaceGradientsDecodeAsTheStandardDoes) {
     check(cases::mikktspace_cases(GetParam()),
-          "wr_frame_tb f = wr_vertex_frame(n, tangent, tangent_sign);\n"
-          "vec3 g = wr_surface_gradient_from_tbn(wr_tangent_normal_slope(m), f);\n"
-          "vec3 normal = wr_resolve(wr_normalize(n), g);",
+          "wr_tangents f = wr_vertex_frame(n, tangent, tangent_sign);\n"
+          "wr_vec3 g = wr_surface_gradient_from_tbn(wr_tangent_normal_slope(m), f);\n"
+          "wr_vec3 normal = wr_resolve(wr_normalize(n), g);",
           {{"normal", xyz("normal"), ErrorMeasure::degrees, 2e-5, 2e-5}});
 }
 
@@ -28,7 +28,7 @@ TEST(VertexFrame, TakesABitangentThatIsGiven) {
         c.in("bitangent", bitangent);
         c.out("B", bitangent / length(n));
     }
-    check(c, "wr_frame_tb f = wr_vertex_frame(n, tangent, bitangent);",
+    check(c, "wr_tangents f = wr_vertex_frame(n, tangent, bitangent);",
           {{"B", xyz("f.b"), ErrorMeasure::relative, 4e-7, 4e-7}});
 }
 

@@ -1,4 +1,4 @@
-// Decals share loops, tables of them a program.
+// Decals with the same mask and sampling share a loop in the kernel; tables of decals share a program.
 #include <algorithm>
 
 #include "tests/plan/planned.h"
@@ -27,7 +27,8 @@ TEST(PlanOfDecals, GroupsDecalsThatShareMaskAndSampling) {
     EXPECT_EQ(plan.decals.size(), 4u);
     std::vector<std::uint32_t> textures;
     for (const PlannedDecal& planned : plan.decals) textures.push_back(planned.image.texture);
-    EXPECT_EQ(textures, (std::vector<std::uint32_t>{0, 1, 0, 2}));  // the same file as height and as slope
+    EXPECT_EQ(textures,
+              (std::vector<std::uint32_t>{0, 1, 0, 2}));  // a file used as heights and as slopes is two textures
     EXPECT_EQ(plan.textures.size(), 3u);
     EXPECT_TRUE(mentions(plan, "i = 0; i < 2") && mentions(plan, "i = 2; i < 3") && mentions(plan, "i = 3; i < 4"));
 }

@@ -1,4 +1,4 @@
-// A plan reads the planes that its scene needs, the best there are, and says what it lacks.
+// A plan reads only the planes that its scene needs, chooses the best of those that there are, and says which it lacks.
 #include <fmt/format.h>
 
 #include <algorithm>

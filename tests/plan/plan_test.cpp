@@ -56,7 +56,7 @@ TEST(Plan, DerivesTextureCoordinatesWhereMasksWantThem) {
         scene.output.marked = marked;
         Available bare = everything();
         std::erase_if(bare.planes, [](const std::string& name) { return name.starts_with("d"); });
-        bare.planes.insert("depth");  // no derivatives: from neighbours
+        bare.planes.insert("depth");  // without planes of derivatives, they come from neighbours
         return mentions(make_plan(scene, bare, options), "usable = uv_valid & wanted");
     };
     EXPECT_TRUE(wanted({woven}));

@@ -6,7 +6,7 @@
 #include "wrinkle/error.h"
 #include "wrinkle/gbuffer.h"
 
-/// Scenes to plan, frames to plan them for, and what to ask of plans.
+/// Scenes to plan, frames to plan them for, and checks of plans.
 namespace wrinkle::test {
 
 inline Available everything() {
@@ -43,7 +43,7 @@ inline Scene scene_of(std::vector<Layer> layers) {
     return scene;
 }
 
-/// The kernels without the list of concept files before them.
+/// The text of a plan's kernels, without the includes before it.
 inline std::string kernels(const Plan& plan) { return plan.source.substr(plan.source.rfind("#include")); }
 inline bool mentions(const Plan& plan, const std::string& text) {
     return kernels(plan).find(text) != std::string::npos;

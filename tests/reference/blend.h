@@ -43,9 +43,9 @@ Vec<T> reorient(Vec<T> s, Vec<T> t, Vec<T> u) {
 
 enum class Blending { whiteout, udn, linear, rnm };
 
-/// [Mik20 table 1] The same across unwraps, on surface gradients tangent to the unit normal n: the two bumps become
-/// tangent-space normals in any orthonormal frame, are changed as the table says, and their slopes added. Linear and
-/// RNM blend the two perturbed normals. No slope is limited here.
+/// [Mik20 table 1] The same for bumps on different unwraps, given as surface gradients tangent to the unit normal n.
+/// Both become tangent-space normals in some orthonormal frame, are changed as the table says, and their slopes are
+/// added. Linear and RNM blend the two perturbed normals instead. No slope is limited here.
 template <class T>
 Vec<T> combine_gradients(Blending how, Vec<T> n, Vec<T> g, Vec<T> detail) {
     const Vec<T> t = normalize(cross(std::abs(n.x) < std::abs(n.y) ? Vec<T>{1, 0, 0} : Vec<T>{0, 1, 0}, n));
@@ -67,7 +67,7 @@ Vec<T> combine_gradients(Blending how, Vec<T> n, Vec<T> g, Vec<T> detail) {
     return surface_gradient_from_normal(n, reorient(n, resolve(n, g), resolve(n, detail)));
 }
 
-/// [Mik20 4.5] The gradient of the mean of the perturbed normal and another, `weight` of which is the other's.
+/// [Mik20 4.5] The surface gradient of a mean of two normals: the perturbed one, and another whose share is `weight`.
 template <class T>
 Vec<T> combine_towards(Vec<T> n, Vec<T> g, Vec<T> other, T weight) {
     return surface_gradient_from_normal(n, normalize(n - g) * (1 - weight) + other * weight);

@@ -19,7 +19,7 @@ TEST(Golden, Blends) {
         expect(blend_partial_derivative(a, b), "want_pd");
         expect(blend_whiteout(a, b), "want_whiteout");
         expect(blend_udn(a, b), "want_udn");
-        expect(reorient(table.vec(i, "vtx"), b, a), "want_rnmWS");  // there b is the base and a the detail
+        expect(reorient(table.vec(i, "vtx"), b, a), "want_rnmWS");  // in the table b is the base and a the detail
     }
 }
 
@@ -28,8 +28,8 @@ TEST(Blend, RnmIsAReorientationAboutZ) {
     EXPECT_LE(relative_error(reorient(Vec<real>{0, 0, 1}, a, b), blend_rnm(a, b)), 1e-17L);
 }
 
-/// What a second normal map does to the first one does not depend on how either is unwrapped: in one frame, combining
-/// gradients is blending tangent-space normals.
+/// How a second normal map combines with the first one must not depend on their unwraps. When both have the same,
+/// combining gradients must give what blending tangent-space normals gives.
 TEST(Blend, OfGradientsInOneFrameIsThatOfTangentNormals) {
     const Vec<real> n{0, 0, 1}, a = normalize(Vec<real>{0.3L, -0.5L, 0.7L}),
                                 b = normalize(Vec<real>{-0.2L, 0.1L, 0.9L});

@@ -61,8 +61,8 @@ public:
         return parallel_ ? normalize(at_depth(x, y, 1) - at_depth(x, y, 2)) : normalize(-p);
     }
 
-    /// dp/dx, dp/dy per pixel right and down of the plane through p (eye-relative) perpendicular to n. For a pinhole r
-    /// in p = r d is the least squares one, so that positions a little off the pixel's ray keep their distance.
+    /// dp/dx and dp/dy, per pixel to the right and down, on the plane through p (eye-relative) perpendicular to n. For
+    /// a pinhole, the distance r in p = r d is found by least squares, as p may lie a little off the pixel's ray.
     ScreenDerivative<T> derivative(Vec<T> p, Vec<T> n, T x, T y) const {
         if (!pinhole_) return screen_derivative(p, n, from_screen_, x, y);
         const Vec<T> d = d0_ + dx_ * x + dy_ * y;

@@ -1,4 +1,4 @@
-// Camera geometry against the projection matrices it comes from, derivatives against neighbouring rays.
+// The geometry of cameras is tested by projecting it with the camera's matrices, derivatives by neighbouring rays.
 #include "tests/reference/camera_rays.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ Vec2<real> pixel_of(const Camera& camera, const CameraRays<real>& rays, V p) {
     return {(q[0] / q[3] + 1) / 2 * size.width, (1 - q[1] / q[3]) / 2 * size.height};
 }
 
-/// The point the pixel position (x, y) sees on the plane through p perpendicular to n: between two points of its ray.
+/// The point that pixel position (x, y) sees on the plane through p perpendicular to n, found on the line through two
+/// points of its ray.
 V on_plane(const CameraRays<real>& rays, V p, V n, real x, real y) {
     const V a = rays.at_depth(x, y, 1), b = rays.at_depth(x, y, 2);
     return a + (b - a) * (dot(n, p - a) / dot(n, b - a));

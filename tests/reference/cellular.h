@@ -9,8 +9,8 @@ namespace wrinkle::reference {
 
 enum class Cell { f1, f2, f2_f1 };
 
-/// The feature point of a lattice cell, in the cell: 32 bits of the cell's coordinates modulo 256 (Wellons's
-/// "lowbias32"), ten of them an axis.
+/// The feature point of a lattice cell, relative to the cell. The cell's coordinates modulo 256 are hashed to 32 bits
+/// (by Wellons's "lowbias32"), of which each axis takes ten.
 template <class T>
 Vec<T> feature_point(std::int64_t x, std::int64_t y, std::int64_t z) {
     std::uint64_t h = 0x9e3779b9 ^ static_cast<std::uint64_t>((x & 255) + 256 * (y & 255) + 65536 * (z & 255));
@@ -22,11 +22,11 @@ Vec<T> feature_point(std::int64_t x, std::int64_t y, std::int64_t z) {
     return {coordinate(0), coordinate(10), coordinate(20)};
 }
 
-/// What cellular noise is made of: every feature point of 7 x 7 x 7 cells around, nearest first.
+/// The feature points of the 7 x 7 x 7 cells around a point, nearest first.
 template <class T>
 struct Neighbour {
     T distance{};
-    Vec<T> away;  ///< from the feature point
+    Vec<T> away;  ///< from the feature point to the point
 };
 
 template <class T>
@@ -62,8 +62,8 @@ NoiseValue<T> worley_noise(Vec<T> p, Cell feature) {
     return {second.value - first.value, second.gradient - first.gradient};
 }
 
-/// How far p is from where the feature's gradient jumps: half the difference of distances that tie there, or F1 itself
-/// at a feature point.
+/// How far p is, at least, from where the gradient jumps: half the difference of two distances that are equal where it
+/// jumps, or the distance to the feature point, where it jumps as well.
 template <class T>
 T distance_to_jump(Vec<T> p, Cell feature) {
     const auto near = feature_neighbours(p);

@@ -15,7 +15,7 @@ struct DecalBox {
     Vec<T> center, x, y, z, half_size;  ///< x, y, z orthonormal
 };
 
-/// axis_x keeps its direction, axis_y what is left of it beside axis_x, z = x cross y.
+/// The box of a decal: x has the direction of axis_x, y is the part of axis_y perpendicular to it, z = x cross y.
 template <class T>
 DecalBox<T> decal_box(Vec<T> center, Vec<T> axis_x, Vec<T> axis_y, Vec<T> half_size) {
     const Vec<T> x = normalize(axis_x);
@@ -23,7 +23,7 @@ DecalBox<T> decal_box(Vec<T> center, Vec<T> axis_x, Vec<T> axis_y, Vec<T> half_s
     return {center, x, y, cross(x, y), half_size};
 }
 
-/// World offset to units of the half size: -1 and 1 are the faces.
+/// A point in the box's coordinates, in which the faces lie at -1 and 1.
 template <class T>
 Vec<T> decal_coordinates(const DecalBox<T>& box, Vec<T> offset) {
     return {dot(box.x, offset) / box.half_size.x, dot(box.y, offset) / box.half_size.y,

@@ -1,5 +1,5 @@
-// Surface gradients against the normal of the really displaced surface p + h n, differentiated numerically. On a plane
-// eq. 5 of [Mik20] is exact, so they must agree.
+// Surface gradients are compared with the normals of surfaces that are really displaced, p + h n, which are found by
+// numerical differentiation. On a plane, eq. 5 of [Mik20] is exact, so both must agree.
 #include <gtest/gtest.h>
 
 #include "tests/reference/resolve.h"
@@ -13,7 +13,7 @@ namespace {
 
 using V = Vec<real>;
 
-/// d/dt of f at 0, extrapolated to step 0.
+/// The derivative of f at 0, by differences that are extrapolated to a step of 0.
 template <class F>
 V derivative(const F& f) {
     const auto central = [&](real h) { return (f(h) - f(-h)) / (2 * h); };
@@ -74,7 +74,7 @@ TEST(DisplacedSurface, VolumeGradientGivesItsNormal) {
     }
 }
 
-/// With s and t in metres along orthonormal axes the slopes of a tangent normal are the slopes of the height.
+/// When s and t are metres along orthonormal axes, the slopes of a tangent-space normal are those of the height.
 TEST(DisplacedSurface, TbnGradientGivesItsNormalWhereTheUvIsOrthonormal) {
     for (int seed = 1; seed <= 50; ++seed) {
         Case c = make_case(seed);

@@ -17,8 +17,8 @@ Vec<T> displaced_normal(Vec<T> n, Vec<T> dh_dp) {
     return resolve(n, surface_gradient_from_volume(n, dh_dp));
 }
 
-/// [Blinn 1978, eq. 2] Its normal from the derivatives of P + h N along two parameters, on the side of dP/dx x dP/dy on
-/// which n lies; n where there is none.
+/// [Blinn 1978, eq. 2] Its normal, from the derivatives of P + h N along two parameters. It lies on the same side as n;
+/// it is n when the derivatives are parallel.
 template <class T>
 Vec<T> displaced_normal_curved(Vec<T> n, Vec<T> dp_dx, Vec<T> dp_dy, Vec<T> dn_dx, Vec<T> dn_dy, T h, T dh_dx,
                                T dh_dy) {

@@ -8,7 +8,7 @@ namespace {
 
 using V = Vec<real>;
 
-/// A torus; with a ring of radius 0 a sphere.
+/// A torus. It is a sphere when the radius of its ring is 0.
 struct Torus {
     real ring, tube;
 
@@ -47,7 +47,7 @@ void expect_normals(const Torus& base) {
 TEST(Displacement, OfASphereHasItsNormal) { expect_normals({0, 1.5L}); }
 TEST(Displacement, OfATorusHasItsNormal) { expect_normals({2, 0.5L}); }
 
-/// Leaving the curvature out costs about slope * |h| / radius.
+/// The form that takes the base normal as constant is off by about slope * |h| / radius.
 TEST(Displacement, WithoutCurvatureIsCloseWhereTheHeightIsSmall) {
     const Torus sphere{0, 1};
     const V k{5, -3, 4};  // h = s sin(k.p) as a function in space

@@ -11,13 +11,13 @@ namespace wrinkle::reference {
 template <class T>
 struct Evaluated {
     bool valid = false;
-    Vec<T> normal;                   ///< resolved; of an invalid pixel the normal as it came, zero if not finite
+    Vec<T> normal;                   ///< the new normal; of an invalid pixel the one it had, zero if that is not finite
     Vec<T> base_normal;              ///< decoded: unit, towards the viewer
     Vec<T> surface_gradient;         ///< of the last stage
-    ScreenDerivative<T> base, last;  ///< dp_dx, dp_dy on the base normal and on the last stage's normal
-    Vec<T> position, view;           ///< eye-relative, where parallax moved it; unit towards the eye
-    int marked = 0;                  ///< wrinkle/gbuffer.h, Marked
-    bool stage_reflected = false;    ///< the resolved normal of an earlier stage faced away and was reflected
+    ScreenDerivative<T> base, last;  ///< dp_dx and dp_dy, on the base normal and on the last stage's
+    Vec<T> position, view;           ///< eye-relative, where parallax moved it to; unit vector towards the eye
+    int marked = 0;                  ///< as Marked in wrinkle/gbuffer.h
+    bool stage_reflected = false;    ///< the normal of an earlier stage faced away and was reflected
 };
 
 /// Evaluates a scene pixel by pixel, in T. `planes` and `images` must outlive it.
@@ -80,7 +80,7 @@ public:
             out.normal = resolve(s.normal, out.surface_gradient);
         };
         for (const Entry& layer : layers_) {
-            if (!layer.function) {  // resolve
+            if (!layer.function) {  // a resolve
                 finish();
                 out.stage_reflected = out.stage_reflected || dot(out.normal, here.view) < 0;
                 s.normal = face_viewer(out.normal, here.view);
@@ -114,8 +114,8 @@ public:
         return out;
     }
 
-    /// The colour the scene's lighting writes: lit, or the beauty plane times the ratio of lit to lit on the base
-    /// normal.
+    /// The colour that the scene's lighting writes: the lit colour, or the beauty plane times the ratio of lit colours
+    /// with the new and with the base normal.
     Vec<T> relit(std::size_t i, const Evaluated<T>& e) const {
         const Lighting& lighting = scene_.lighting;
         const bool ratio = lighting.relight == Relight::ratio;
@@ -135,10 +135,10 @@ public:
 
 private:
     struct Entry {
-        LayerFunction<T> function;  ///< empty: resolve
-        ShiftFunction<T> shift;     ///< empty: moves nothing
-        bool curved;                ///< turns the normal as well
-        T scale;                    ///< with the blend's sign
+        LayerFunction<T> function;  ///< empty for a resolve
+        ShiftFunction<T> shift;     ///< of a parallax; else empty
+        bool curved;                ///< of a parallax: it turns the normal, too
+        T scale;                    ///< negative when the layer is subtracted
         SceneMask<T> mask;
         bool project = true;
         Combine combine = Combine::surface_gradient;
@@ -155,8 +155,7 @@ private:
                                             : Blending::linear;
     }
 
-    /// Moves the surfel along the pixel's ray; the texture coordinates go on linearly, in space and from pixel to
-    /// pixel.
+    /// Moves the surfel along the pixel's ray. Texture coordinates are continued linearly, and keep their derivatives.
     void move(std::size_t i, const Entry& layer, T depth, Surfel<T>& s, Evaluated<T>& out) const {
         const bool parallel = frame_.rays().parallel();
         const T distance = parallel ? std::numeric_limits<T>::infinity() : length(out.position);

@@ -1,4 +1,4 @@
-// The evaluator on small analytic frames: layers against their closed forms and against each other.
+// The evaluator on small frames of known surfaces: layers are compared with closed forms and with each other.
 #include "tests/reference/evaluate.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,8 @@ TEST(Evaluate, UvPlaneAgreesWithThePlanarProjectionItHolds) {
         h.uv.source = UvSource::aov;
         h.texture.file = "waves";
         aov.scene.layers = {layer(h, 0.5)};
-        // Neighbour differences carry the float32 rounding of uv, and in perspective one-sided curvature at borders.
+        // Differences of neighbours have the rounding of UV to float32 and, in perspective, one-sided errors at
+        // borders.
         expect_same(planar, aov, camera.proj[3][3] == 1 ? 0.02 : 1.5);
         for (const char* name : {"dp_du.x", "dp_dv.y"}) aov.frame.add(name, 4);
         for (const char* name : {"dp_du.y", "dp_dv.x"}) aov.frame.add(name);

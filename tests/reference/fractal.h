@@ -23,11 +23,12 @@ struct Fractal {
     T offset = 1, feedback = 2;
 };
 
-/// Noise of an octave, at lattice coordinates.
+/// The noise of an octave, as a function of lattice coordinates.
 template <class T>
 using OctaveNoise = std::function<NoiseValue<T>(int octave, Vec<T> p)>;
 
-/// Share of an octave that `cells` lattice cells per pixel leave: 1 up to a quarter, 0 from a half (Nyquist) on.
+/// How much of an octave remains when a pixel spans so many of its lattice cells: all up to a quarter, nothing from a
+/// half (the Nyquist limit) on.
 template <class T>
 T octave_weight(T cells) {
     return saturate(2 - 4 * cells);

@@ -20,7 +20,7 @@ namespace wrinkle::reference {
 
 using Planes = std::map<std::string, std::span<const float>>;  ///< names of wrinkle/gbuffer.h
 
-/// A decoded pixel: where it is, its unit base normal towards the viewer.
+/// A decoded pixel: its position, and its unit base normal, which faces the viewer.
 template <class T>
 struct Decoded {
     bool valid = false, reflected = false;
@@ -33,8 +33,8 @@ struct Decoded {
 template <class T>
 class Frame {
 public:
-    /// Depth is used if `source` says so or, where it leaves it open, if there is a depth plane; planar unless it says
-    /// ray.
+    /// Geometry comes from depth when `source` says so, or when it leaves that open and there is a depth plane. Depth
+    /// is planar unless `source` says that it is measured along the ray.
     Frame(const GBufferSource& source, Size size, const Camera& camera, Planes planes)
         : size_(size), rays_(camera, size), planes_(std::move(planes)) {
         const bool automatic = source.geometry == Geometry::automatic && planes_.contains("depth");
@@ -58,7 +58,7 @@ public:
     std::span<const float> plane(const std::string& name) const { return planes_.at(name); }
     Vec<T> raw_normal(std::size_t i) const { return {T(normal_[0][i]), T(normal_[1][i]), T(normal_[2][i])}; }
 
-    /// Of pixel i by the Cryptomatte object of this name.
+    /// How much of pixel i the Cryptomatte object of this name covers.
     T coverage(std::size_t i, const std::string& name) const {
         std::vector<std::pair<float, float>> pairs;
         for (const auto& [id, coverage] : ranks_) pairs.emplace_back(id[i], coverage[i]);
@@ -94,8 +94,8 @@ public:
 
     Vec2<T> uv(std::size_t i) const { return {T(plane("uv.u")[i]), T(plane("uv.v")[i])}; }
 
-    /// d(u,v)/d(x,y) of the UV plane: from duv_dx and duv_dy, else dp_du and dp_dv, else the neighbours; nothing where
-    /// there is none. `base` is the pixel's own dp_dx, dp_dy on its base normal.
+    /// d(u,v)/d(x,y) of the UV plane: from the planes duv_dx and duv_dy, else from dp_du and dp_dv, else from
+    /// neighbours. Nothing when none of these gives any. `base`: dp_dx and dp_dy of the pixel on its base normal.
     std::optional<TexDerivative<T>> uv_derivative(std::size_t i, const Decoded<T>& here,
                                                   const ScreenDerivative<T>& base) const {
         std::optional<Vec2<T>> dx, dy;
@@ -118,8 +118,8 @@ public:
         return TexDerivative<T>{*dx, *dy};
     }
 
-    /// Change of a height plane to the pixels right and below (or from left and above); nothing where there is none on
-    /// the pixel's surface. `base` as above.
+    /// Change of a height plane to the pixels at the right and below, or from those at the left and above. Nothing when
+    /// those are not on the same surface. `base` as above.
     std::optional<Vec2<T>> height_slope(std::size_t i, const Decoded<T>& here, const ScreenDerivative<T>& base,
                                         const std::string& name) const {
         const std::span<const float> h = plane(name);
@@ -139,7 +139,7 @@ public:
 
     bool has_vertex_frame() const { return has("tangent.z") && (has("tangent_sign") || has("bitangent.z")); }
 
-    /// The renderer's tangents; nothing where they are not finite.
+    /// The renderer's tangents. Nothing when they are not finite.
     std::optional<TangentFrame<T>> vertex_frame(std::size_t i) const {
         const auto read = [&](const std::string& name) {
             return Vec<T>{T(plane(name + ".x")[i]), T(plane(name + ".y")[i]), T(plane(name + ".z")[i])};
@@ -156,7 +156,7 @@ public:
         return TangentFrame<T>{tangent / length(n), bitangent / length(n), false};
     }
 
-    /// dn/dx, dn/dy of the normals as they came, made unit, from the neighbours.
+    /// dn/dx and dn/dy of the frame's normals, made unit, by differences of neighbours.
     ScreenDerivative<T> normal_derivative(std::size_t i, const Decoded<T>& here,
                                           const ScreenDerivative<T>& base) const {
         const auto along = [&](std::size_t stride, std::size_t index, std::size_t count, Vec<T> dp) {
@@ -176,7 +176,7 @@ private:
                 has("uv.u") ? uv(i) : Vec2<T>{}};
     }
 
-    /// As a neighbour: a normal longer than 1e19 or shorter than 1e-19 is not compared with.
+    /// Pixel i as a neighbour of others. It is invalid when its normal is longer than 1e19 or shorter than 1e-19.
     UvPixel<T> neighbour(std::size_t i) const {
         UvPixel<T> pixel = uv_pixel(i, decode(i));
         const T size = length(raw_normal(i));
@@ -184,7 +184,8 @@ private:
         return pixel;
     }
 
-    /// Pixels i + stride and i - stride lie at index + 1 and index - 1 of `count` along the axis.
+    /// The change along one axis of the picture: pixel i is number `index` of `count` along it, and its neighbours are
+    /// pixels i + stride and i - stride.
     std::optional<UvChange<T>> from_neighbours(std::size_t i, const Decoded<T>& here, std::size_t stride,
                                                std::size_t index, std::size_t count, Vec<T> dp) const {
         const UvPixel<T> centre = uv_pixel(i, here);

@@ -10,7 +10,7 @@
 
 #include "tests/reference/vec.h"
 
-/// Golden tables: CSV, header row first; columns by name. data/golden/README.md says what they hold.
+/// Golden tables, which are CSV with named columns. data/golden/README.md says what they hold.
 namespace wrinkle::reference {
 
 class GoldenTable {
@@ -30,7 +30,7 @@ public:
     bool has(const std::string& name) const { return columns_.contains(name); }
     const std::vector<std::string>& cells(std::size_t row) const { return rows_[row]; }
 
-    /// A number, nan and inf included.
+    /// A number, which may also be nan or inf.
     double number(std::size_t row, const std::string& name) const {
         return std::strtod(text(row, name).c_str(), nullptr);
     }
@@ -50,7 +50,7 @@ public:
         const bool xy = has(name + ".x");
         return {T(number(row, name + (xy ? ".x" : ".s"))), T(number(row, name + (xy ? ".y" : ".t")))};
     }
-    /// "hard/near_horizon case 212": what a message calls a row.
+    /// What messages call a row: "hard/near_horizon case 212".
     std::string label(std::size_t row) const {
         return text(row, "set") + "/" + text(row, "category") + " case " + text(row, "case");
     }

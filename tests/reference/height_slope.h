@@ -7,8 +7,8 @@
 
 namespace wrinkle::reference {
 
-/// Mip level of a texture w x h for screen derivatives of (s,t): 0.5 log2 of the longer squared footprint axis in
-/// texels, within [0, levels - 1].
+/// The mip level of a texture w x h for screen derivatives of (s,t): 0.5 log2 of the square of the footprint's longer
+/// axis, in texels, limited to [0, levels - 1].
 template <class T>
 T level_of_detail(TexDerivative<T> st, int w, int h, int levels) {
     const auto squared = [&](Vec2<T> d) { return d.x * w * d.x * w + d.y * h * d.y * h; };
@@ -36,7 +36,7 @@ Vec2<T> plain_slope(const Pyramid<T>& height, Vec2<T> st, T lod, Address wrap) {
     return {d.x * top.width, d.y * top.height};
 }
 
-/// Sobel slope of a level at one of its texels, per texel: rows of D and B of [Mik20 eq. 20, 21].
+/// The Sobel slope at a texel of a level, per texel of that level: rows of D and B of [Mik20 eq. 20, 21].
 template <class T>
 Vec2<T> sobel(const Level<T>& level, std::int64_t x, std::int64_t y, Address wrap) {
     const auto h = [&](int i, int j) { return level.at(0, x + i, y + j, wrap); };

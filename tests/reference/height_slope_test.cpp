@@ -19,7 +19,8 @@ std::map<std::string, Pyramid<real>> golden_textures() {
     return textures;
 }
 
-/// Slopes cancel heights near 1, so a flat spot is measured against the slope of a texel step of 1e-3.
+/// Slopes are differences of heights near 1. Errors are relative to the slope, or to one of 1e-3 per texel where it is
+/// flatter.
 void expect_slope(Vec2<real> got, Vec2<real> want, const std::string& label) {
     const real size = std::max(std::hypot(want.x, want.y), 1e-3L);
     EXPECT_LE(std::hypot(got.x - want.x, got.y - want.y) / size, 1e-12L) << label;
@@ -47,7 +48,7 @@ TEST(Golden, HeightSlope) {
     }
 }
 
-/// The table's maker halves odd sizes by another rule, so only even ones are compared.
+/// The program that made the table halves odd sizes by another rule, so only even ones are compared.
 TEST(HeightSlope, PyramidIsTheMeanOfTwoByTwo) {
     for (const auto& [name, golden_pyramid] : golden_textures())
         for (std::size_t l = 1; l < golden_pyramid.levels.size(); ++l) {

@@ -20,22 +20,23 @@
 
 namespace wrinkle::reference {
 
-/// What a layer adds: gradients already tangent to n, and volume gradients still to be projected onto n.
+/// What a layer adds: surface gradients, which are tangent to n, and volume gradients, which are projected later.
 template <class T>
 struct Contribution {
     Vec<T> surface, volume;
-    bool usable = true;  ///< false: the UV plane has no derivative here; the contribution is zero
-    bool marks = false;  ///< the pixel is marked for want of a neighbour
-    /// Bumped by `volume` in place of the surface, and then its share of the normals' mean.
+    bool usable = true;  ///< false when texture coordinates have no derivative here: the layer adds nothing
+    bool marks = false;  ///< a neighbour was missing, and the pixel is marked
+    /// In the mode "projector" of a decal: the axis that `volume` bumps instead of the surface's normal. Both are then
+    /// mixed by the share that follows.
     std::optional<Vec<T>> axis{};
     T share = 0;
 };
 
-/// A layer without scale, blend and mask, ready to be asked at any surfel.
+/// A layer without scale, blend and mask, as a function of a surfel.
 template <class T>
 using LayerFunction = std::function<Contribution<T>(const Surfel<T>&)>;
 
-/// Whether a layer goes by the renderer's tangents.
+/// Whether a layer uses the renderer's tangents.
 inline bool uses_vertex_frame(const NormalMapLayer& layer, bool planes) {
     const bool fits = layer.uv.source == UvSource::aov && layer.uv.rotation == 0;
     return planes && fits && layer.frame != TangentSource::derived;
@@ -84,7 +85,7 @@ LayerFunction<T> make_layer(const HeightChannelLayer& layer, bool, SceneTextures
     };
 }
 
-/// Noise with what is composed with it, at a point whose footprint is so long.
+/// A layer's noise, with its fractal and its shape, at a point with a footprint of that length.
 template <class T>
 std::function<NoiseValue<T>(Vec<T> p, T longest)> layer_noise(const NoiseLayer& layer) {
     const Fractal<T> f{
@@ -132,7 +133,8 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
     };
 }
 
-/// Every row at every point, in order: by priority where any row replaces, else as they come.
+/// A table of decals, by evaluating every row at every point: in the order of priority when any row replaces, else in
+/// that of the table.
 template <class T>
 LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextures<T>& textures) {
     struct Entry {
@@ -217,12 +219,12 @@ LayerFunction<T> make_layer(const ParallaxLayer&, bool, SceneTextures<T>&) {
     return [](const Surfel<T>&) -> Contribution<T> { return {}; };
 }
 
-/// How far a layer moves a surfel towards the viewer, metres along the ray. `view` is the unit to the viewer, who is
-/// `distance` away; `depth` is what a height of 1 stands for.
+/// How far a layer moves a surfel towards the viewer, in metres along the ray. `view` is the unit vector to the viewer,
+/// who is `distance` away; `depth` is the metres for a height of 1.
 template <class T>
 using ShiftFunction = std::function<T(const Surfel<T>&, Vec<T> view, T distance, T depth)>;
 
-/// Nothing moves unless the kind says so.
+/// Layers of other kinds than parallax move nothing.
 template <class T, class Bump>
 ShiftFunction<T> make_shift(const Bump&, bool, SceneTextures<T>&) {
     return {};

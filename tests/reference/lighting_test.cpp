@@ -1,4 +1,4 @@
-// The reflectance is reciprocal and loses no more energy than single scattering does; lights fall off as they should.
+// Reflectance is reciprocal and loses no more energy than single scattering does, and lights fall off as they should.
 #include "tests/reference/lighting.h"
 
 #include <gtest/gtest.h>

@@ -31,15 +31,15 @@ inline std::uint32_t murmur3_32(std::string_view text) {
     return h ^ h >> 16;
 }
 
-/// Cryptomatte specification 1.2: the hash of a name as the bits of a float; an exponent of all zeros or all ones
-/// (denormal, infinite, NaN) has its lowest bit flipped. "#" and 8 hex digits are the bits themselves.
+/// Cryptomatte specification 1.2: the hash of a name, as the bits of a float. When the exponent's bits are all equal
+/// (zero, denormal, infinite, NaN), the lowest of them is flipped. "#" and 8 hex digits are the bits themselves.
 inline std::uint32_t cryptomatte_bits(const std::string& name) {
     if (name.size() == 9 && name[0] == '#') return static_cast<std::uint32_t>(std::stoul(name.substr(1), nullptr, 16));
     const std::uint32_t hash = murmur3_32(name), exponent = hash >> 23 & 255;
     return exponent == 0 || exponent == 255 ? hash ^ 1u << 23 : hash;
 }
 
-/// Sum of the coverage over the ranks (id, coverage) of a pixel whose id is `bits`.
+/// The sum of the coverages of those ranks (id, coverage) of a pixel whose id is `bits`.
 template <class T>
 T cryptomatte_coverage(std::span<const std::pair<float, float>> ranks, std::uint32_t bits) {
     T sum = 0;

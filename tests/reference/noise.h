@@ -26,9 +26,9 @@ Vec<T> perlin_direction(int hash) {
     return {g[0], g[1], g[2]};
 }
 
-/// Perlin, "Improving Noise", SIGGRAPH 2002: the sum over the 8 corners of a lattice cell of
-/// w(dx) w(dy) w(dz) (g . d), w the fade polynomial 1 - (6t^5 - 15t^4 + 10t^3); the gradient is its product rule.
-/// With `cubic` the fade of "An Image Synthesizer", SIGGRAPH 1985: 1 - (3t^2 - 2t^3).
+/// Perlin, "Improving Noise", SIGGRAPH 2002: the sum over the 8 corners of a lattice cell of w(dx) w(dy) w(dz) (g . d),
+/// where w is the fade 1 - (6t^5 - 15t^4 + 10t^3); the gradient follows by the product rule. With `cubic`, the fade is
+/// that of "An Image Synthesizer", SIGGRAPH 1985: 1 - (3t^2 - 2t^3).
 template <class T>
 NoiseValue<T> perlin_noise(Vec<T> p, bool cubic = false) {
     const std::array<T, 3> x{p.x, p.y, p.z};

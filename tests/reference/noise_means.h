@@ -23,7 +23,7 @@ OctaveNoise<T> octave_noise(const NoiseLayer& layer) {
     return [cubic = layer.type == NoiseType::perlin1985](int, Vec<T> p) { return perlin_noise(p, cubic); };
 }
 
-/// Means of a layer's noise over space, measured (noise_test.cpp samples them again).
+/// Means of a layer's noise over space. They are measured; noise_test.cpp measures them again.
 template <class T>
 NoiseMeans<T> noise_means(const NoiseLayer& layer) {
     switch (layer.type) {

@@ -1,4 +1,4 @@
-// Noises against the tables of their reference algorithms, gradients against finite differences.
+// Noises are compared with tables of their reference algorithms, gradients with finite differences.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -10,7 +10,7 @@
 namespace wrinkle::reference {
 namespace {
 
-/// Central differences extrapolated to step 0 (Richardson), long double.
+/// Central differences, extrapolated to a step of 0 (Richardson), in long double.
 template <class F>
 Vec<real> numeric_gradient(const F& value, Vec<real> p, real step) {
     const auto along = [&](Vec<real> axis) {
@@ -51,7 +51,8 @@ TEST(Noise, GradientIsTheDerivativeOfTheValue) {
         for (std::size_t i = 0; i < table.size(); ++i) {
             const Vec<real> p = table.vec(i, "p");
             const auto value = [&](Vec<real> q) { return noises[k](q).value; };
-            const real bound = k == 1 ? 2e-4L : 1e-7L;  // on a face between cells the cubic fade's curvature jumps
+            // k == 1: on a face of a cell, where the curvature of the cubic fade jumps.
+            const real bound = k == 1 ? 2e-4L : 1e-7L;
             EXPECT_LE(length(noises[k](p).gradient - numeric_gradient(value, p, 1e-4L)), bound)
                 << "noise " << k << ", case " << i;
         }
@@ -123,7 +124,7 @@ TEST(Fractal, GradientIsTheDerivativeOfTheValue) {
     for (const Octaves kind : {Octaves::sum, Octaves::turbulence, Octaves::ridged}) {
         const Fractal<real> f{1.5L, 5, 2.1L, 0.45L, kind};
         const auto value = [&](Vec<real> q) { return fractal<real>(f, noise, {}, q, 0).value; };
-        int kinks = 0;  // where a magnitude or a clamp has none
+        int kinks = 0;  // points so near a kink of a magnitude or clamp that there is no derivative
         for (int i = 0; i < 64; ++i) {
             const Vec<real> p{std::sin(i * 1.1L) * 9, std::cos(i * 2.3L) * 7, i * 0.37L - 11};
             const Vec<real> got = fractal<real>(f, noise, {}, p, 0).gradient;

@@ -6,8 +6,8 @@
 
 namespace wrinkle::reference {
 
-/// A normal of a surface that the matrix (rows) moves: perpendicular to what tangents become, on the same side. From
-/// two tangents of the normal, not from cofactors; not unit.
+/// The normal, not of unit length, of a surface that is moved by a matrix (given by rows). It is perpendicular to the
+/// moved tangents, and on the same side. Found from two tangents, while kernels use cofactors.
 template <class T>
 Vec<T> transform_normal(const std::array<std::array<double, 3>, 3>& m, Vec<T> n) {
     const auto moved = [&](Vec<T> p) {

@@ -7,8 +7,8 @@
 
 namespace wrinkle::reference {
 
-/// [Mik20 listing 11] The screen vector whose surface step is the tangential part of `dir`; nothing where dp_dx and
-/// dp_dy span no plane across n.
+/// [Mik20 listing 11] The screen vector whose step along the surface is the tangential part of `dir`. Nothing when
+/// dp_dx and dp_dy do not span the tangent plane of n.
 template <class T>
 std::optional<Vec2<T>> screen_vector(Vec<T> n, Vec<T> dp_dx, Vec<T> dp_dy, Vec<T> dir) {
     const Vec<T> r1 = cross(dp_dy, n), r2 = cross(n, dp_dx);
@@ -17,7 +17,7 @@ std::optional<Vec2<T>> screen_vector(Vec<T> n, Vec<T> dp_dx, Vec<T> dp_dy, Vec<T
     return Vec2<T>{dot(r1, dir) / det, dot(r2, dir) / det};
 }
 
-/// [Mik20 listing 11] `dir` in texture space: per unit of length along it, or projected, per unit along n.
+/// [Mik20 listing 11] `dir` in texture space, per unit of its length or, when it is projected, per unit along n.
 template <class T>
 Vec2<T> project_to_texture(Vec<T> n, Vec<T> dp_dx, Vec<T> dp_dy, TexDerivative<T> st, Vec<T> dir, bool projected) {
     const auto v = screen_vector(n, dp_dx, dp_dy, dir);
@@ -35,15 +35,17 @@ Vec<T> texture_offset_to_surface(Vec<T> sigma_x, Vec<T> sigma_y, TexDerivative<T
     return sigma_x * vx + sigma_y * vy;
 }
 
-/// [Mik20 4.3] The normal after a screen vector of movement; n where that would face away from the viewer.
+/// [Mik20 4.3] The normal at the end of a movement along a screen vector. It is n when it would face away from the
+/// viewer.
 template <class T>
 Vec<T> parallax_normal(Vec<T> n, Vec<T> dn_dx, Vec<T> dn_dy, Vec2<T> v, Vec<T> view) {
     const Vec<T> moved = n + dn_dx * v.x + dn_dy * v.y;
     return dot(moved, view) > 0 ? normalize(moved) : n;
 }
 
-/// Where a ray meets the heights: from h = 1 down in steps, then `refine` times regula falsi, then once more without
-/// asking the heights. `heights(st)` is any function; the coordinates at h are st + range (h - level).
+/// The height at which a ray meets the heights. It goes down from h = 1 in steps, then refines `refine` times by regula
+/// falsi, and interpolates once more without evaluating the heights. `heights(st)` is any function; at height h, the
+/// ray is at the coordinates st + range (h - level).
 template <class T, class Heights>
 T parallax_march(const Heights& heights, Vec2<T> st, Vec2<T> range, T level, T step, int steps, int refine) {
     const auto gap = [&](T h) { return h - heights(st + range * (h - level)); };
@@ -68,7 +70,7 @@ T parallax_march(const Heights& heights, Vec2<T> st, Vec2<T> range, T level, T s
     return crossing();
 }
 
-/// Half a texel of the level as a share of the whole range, at least 1 / steps.
+/// The length of a step: half a texel of the level, as a share of the whole range, but at least 1 / steps.
 template <class T>
 T parallax_step(const Level<T>& top, Vec2<T> range, T lod, int steps) {
     const T texels = std::hypot(range.x * top.width, range.y * top.height) / std::exp2(lod);

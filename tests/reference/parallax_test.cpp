@@ -8,7 +8,7 @@ namespace {
 
 using V2 = Vec2<real>;
 
-/// Heights that count how often they are asked.
+/// Heights that count how often they are evaluated.
 struct Counted {
     real (*height)(V2);
     int* count;
@@ -31,13 +31,14 @@ TEST(ParallaxMarch, OfAFlatHeightIsThatHeight) {
     }
 }
 
-/// h = s under the ray s = 1/4 + range (h - level); the second crosses below 0, where the heights end.
+/// The heights h = s, met by rays s = 1/4 + range (h - level). The second ray would meet them below 0, where heights
+/// end.
 TEST(ParallaxMarch, OfARampIsWhereTheLinesCross) {
     EXPECT_NEAR(double(march([](V2 st) { return st.x; }, {-0.5L, 0}, 0, 16, 0)), 0.25 / 1.5, 1e-15);
     EXPECT_EQ(march([](V2 st) { return st.x; }, {0.5L, 0}, 1, 16, 0), 0);
 }
 
-/// Each refinement asks once, and three of them are three.
+/// Each refinement evaluates the heights once.
 TEST(ParallaxMarch, RefinesAsOftenAsAsked) {
     const auto hill = [](V2 st) { return 0.5L + 0.4L * std::sin(4 * st.x); };
     const auto exact = march(hill, {0.3L, 0}, 0, 8, 40);
@@ -57,8 +58,8 @@ TEST(ParallaxMarch, RefinesAsOftenAsAsked) {
 /// The first peak hides the higher one behind it.
 TEST(ParallaxMarch, StopsAtTheFirstPeak) {
     const auto peaks = [](V2 st) { return (st.x > 0.9L && st.x < 1.1L) || (st.x > 0.4L && st.x < 0.6L) ? 0.8L : 0.0L; };
-    EXPECT_NEAR(double(march(peaks, {1, 0}, 0, 64, 16)), 0.8, 0.01);  // comes from s = 1.25, meets the far one
-    EXPECT_LT(double(march(peaks, {1, 0}, 0.9L, 64, 16)), 0.25);      // from s = 0.35: passes below none
+    EXPECT_NEAR(double(march(peaks, {1, 0}, 0, 64, 16)), 0.8, 0.01);  // from s = 1.25 it meets the far peak
+    EXPECT_LT(double(march(peaks, {1, 0}, 0.9L, 64, 16)), 0.25);      // from s = 0.35 it meets no peak on its way
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace wrinkle::reference {
 
 /// [Mik20 3.4, listing 5] Surface gradient of a known normal v (any length): (k n - v) / |k|, k = n.v, n unit.
-/// v perpendicular to n has no answer (infinite).
+/// When v is perpendicular to n there is no answer: it is infinite.
 template <class T>
 Vec<T> surface_gradient_from_normal(Vec<T> n, Vec<T> v) {
     const T k = dot(n, v);

@@ -1,4 +1,4 @@
-// Planar mapping: what the chain rule gives is what the closed form says.
+// Planar mapping: the chain rule gives the same as the closed form.
 #include <gtest/gtest.h>
 
 #include "tests/reference/object_scale.h"
@@ -10,9 +10,9 @@ namespace {
 
 using V = Vec<real>;
 
-/// ["Exploring the Surface Gradient" eq. 13, 44] The surface gradient of slopes along a projection onto the x-y plane
-/// with tiling (a, b) is [1 - n_x^2, -n_x n_y, -n_x n_z | -n_x n_y, 1 - n_y^2, -n_y n_z] (a h_s, b h_t), wherever the
-/// pixels' steps lead and whatever the translation.
+/// ["Exploring the Surface Gradient" eq. 13, 44] For slopes along a projection onto the x-y plane with tiling (a, b),
+/// the surface gradient is [1 - n_x^2, -n_x n_y, -n_x n_z | -n_x n_y, 1 - n_y^2, -n_y n_z] (a h_s, b h_t). It depends
+/// neither on dp_dx and dp_dy nor on the translation.
 TEST(Planar, SurfaceGradientIsTheClosedForm) {
     const V n = normalize(V{0.3L, -0.4L, 0.6L});
     const V dp_dx = tangent_part(V{0.01L, 0.02L, -0.005L}, n), dp_dy = tangent_part(V{-0.03L, 0.01L, 0.02L}, n);

@@ -5,16 +5,16 @@
 
 namespace wrinkle::reference {
 
-/// A point as a projector's image has it: (s,t) before any tiling, and how much of the decal there is.
+/// Where a projector's image shows a point: (s,t) before any tiling, and how strong the decal is there.
 template <class T>
 struct ProjectedPoint {
     Vec2<T> st;
-    T size = 1;  ///< of the image, as a share of its size at the base
+    T size = 1;  ///< the image's size at the point, as a share of its size at the base
     T weight = 0;
 };
 
-/// Box, ellipsoid or cone: inside, and fading towards the border. A cone's image shrinks linearly from its base on the
-/// -z face to the apex in the middle of the +z face and ends at a 64th of its size.
+/// Projects a point into a box, ellipsoid or cone, which fades towards its border. A cone's image shrinks linearly from
+/// the base on the -z face to the apex in the middle of the +z face, and ends where it is a 64th of its size.
 template <class T>
 ProjectedPoint<T> project(const Projector& row, const DecalBox<T>& box, Vec<T> position) {
     const Vec<T> q = decal_coordinates(box, position - box.center);
@@ -41,7 +41,8 @@ ProjectedPoint<T> project(const Projector& row, const DecalBox<T>& box, Vec<T> p
     return out;
 }
 
-/// d(s,t)/d(direction): of a box, linear; of a cone by the quotient rule for q.x / size, size = (1 - q.z) / 2.
+/// The derivative of (s,t) along a direction. For a box, (s,t) is linear; for a cone, it is q.x / size with
+/// size = (1 - q.z) / 2, so the quotient rule applies.
 template <class T>
 Vec2<T> projected_step(const Projector& row, const DecalBox<T>& box, Vec<T> position, Vec<T> direction) {
     const Vec<T> dq = decal_coordinates(box, direction);
@@ -52,7 +53,7 @@ Vec2<T> projected_step(const Projector& row, const DecalBox<T>& box, Vec<T> posi
     return {quotient(q.x, dq.x), quotient(q.y, dq.y)};
 }
 
-/// What a row makes of the sum of those before it, weighed by `mask`.
+/// Applies a row to the sum of those before it, with the weight `mask`.
 template <class T>
 void add_projector(const Projector& row, const LayerTexture<T>& texture, const Surfel<T>& s, bool footprint, T mask,
                    Vec<T>& sum) {
@@ -75,8 +76,8 @@ void add_projector(const Projector& row, const LayerTexture<T>& texture, const S
     };
     const TexCoord<T> c{{at.st.x * repeat.x, at.st.y * repeat.y}, {step(s.d.dp_dx), step(s.d.dp_dy)}};
     const Vec2<T> slope = texture.slope(c, footprint);
-    // The gradient of h(s(p), t(p)), axis by axis. A slope without unit is one over the metres of the image where it
-    // is.
+    // The gradient of h(s(p), t(p)), axis by axis. Slopes without a unit are metres over the metres that the image is
+    // wide at this point.
     const T width = 2 * at.size * box.half_size.x / repeat.x, height = 2 * at.size * box.half_size.y / repeat.y;
     const bool unitless = texture.content != Content::height;
     const T ds = slope.x * (unitless ? width : T(1)), dt = slope.y * (unitless ? height : T(1));

@@ -8,7 +8,7 @@
 
 namespace wrinkle::reference {
 
-/// A picture as it is loaded: rows bottom first (row 0 is t = 0), channels interleaved.
+/// A picture. Row 0 is at the bottom (t = 0); channels are interleaved.
 struct Image {
     int width = 0, height = 0, channels = 0;
     std::vector<float> texels;
@@ -37,8 +37,8 @@ struct Pyramid {
     std::vector<Level<T>> levels;
 };
 
-/// The next mip level: half the size rounded down, at least 1; each texel the mean of the 2x2 below it, indices 2x and
-/// 2x + 1 clamped to the last.
+/// The next mip level. Its sides are half as long, rounded down, and at least 1. Each texel is the mean of the 2x2
+/// texels that it covers; their indices 2x and 2x + 1 are clamped to the last one.
 template <class T>
 Level<T> half_size(const Level<T>& fine, int channels) {
     Level<T> coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
@@ -68,7 +68,8 @@ Pyramid<T> first_channel_pyramid(const Image& image) {
     return build_pyramid(std::move(top), 1);
 }
 
-/// The texel below and left of a sample, and how far it is to the next. Texel i has its centre at (i + .5) / width.
+/// The texel at the lower left of a sample, and how far the sample is on the way to the next one. The centre of texel i
+/// is at (i + .5) / width.
 template <class T>
 struct Bilinear {
     std::int64_t x, y;
@@ -90,7 +91,8 @@ T sample_level(const Level<T>& level, int channel, Vec2<T> st, Address wrap) {
     return (at(0, 0) * (1 - b.fx) + at(1, 0) * b.fx) * (1 - b.fy) + (at(0, 1) * (1 - b.fx) + at(1, 1) * b.fx) * b.fy;
 }
 
-/// The finer of the two levels next to a lod, and the weight of the coarser; lod is clamped to the levels there are.
+/// The finer one of the two levels next to a lod, and the weight of the coarser one. The lod is clamped to the levels
+/// that there are.
 template <class T>
 struct Trilinear {
     std::size_t level;

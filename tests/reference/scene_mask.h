@@ -7,7 +7,7 @@
 
 namespace wrinkle::reference {
 
-/// A layer's mask on a frame: the product of what it names, or one minus it.
+/// A layer's mask on a frame: the product of all that it names, or one minus that.
 template <class T>
 class SceneMask {
 public:
@@ -18,7 +18,7 @@ public:
         if (mask.texture) texture_ = textures.values(mask.texture->file.string());
     }
 
-    /// Nothing where its texture lies on a UV plane without a derivative.
+    /// Nothing when it has a texture and the UV plane has no derivative here.
     std::optional<T> at(std::size_t i, const Surfel<T>& s) const {
         T m = 1;
         if (mask_.object) m *= object_[i] == static_cast<float>(*mask_.object) ? T(1) : T(0);

@@ -24,7 +24,7 @@ struct TexCoord {
 /// A texture of a layer, ready to give slopes.
 template <class T>
 struct LayerTexture {
-    std::shared_ptr<const Pyramid<T>> pyramid;  ///< height, or the two slopes of a tangent normal
+    std::shared_ptr<const Pyramid<T>> pyramid;  ///< heights, or the two slopes of tangent-space normals
     Content content = Content::height;
     Upscale upscale = Upscale::smooth;
     Address wrap = Address::repeat;
@@ -33,13 +33,13 @@ struct LayerTexture {
         const Level<T>& top = pyramid->levels.front();
         return footprint ? level_of_detail(d, top.width, top.height, static_cast<int>(pyramid->levels.size())) : T(0);
     }
-    /// Vector of an object-space normal map.
+    /// The vector of an object-space normal map.
     Vec<T> vector(const TexCoord<T>& at, bool footprint) const {
         const T level = lod(at.d, footprint);
         const auto part = [&](int k) { return sample(*pyramid, k, at.st, level, wrap); };
         return {part(0), part(1), part(2)};
     }
-    /// Height and slope maps: dh per unit s and t. Normal: the unitless slope.
+    /// For height and slope maps, dh per unit s and t. For normal maps, the slope, which has no unit.
     Vec2<T> slope(const TexCoord<T>& at, bool footprint) const {
         const T level = lod(at.d, footprint);
         if (content != Content::height)
@@ -49,7 +49,8 @@ struct LayerTexture {
     }
 };
 
-/// Slopes [Mik20 listing 2] of the texels of a tangent normal map, [0,1] to [-1,1] first; mips average the slopes.
+/// The slopes [Mik20 listing 2] of the texels of a tangent-space normal map, which are brought from [0,1] to [-1,1]
+/// first. Mips are means of slopes.
 template <class T>
 Pyramid<T> slope_pyramid(const Image& image, bool y_down) {
     const std::size_t count = static_cast<std::size_t>(image.width) * image.height;
@@ -66,7 +67,7 @@ Pyramid<T> slope_pyramid(const Image& image, bool y_down) {
     return build_pyramid(std::move(top), 2);
 }
 
-/// All channels as they are, the second one negated where `y_down` asks for it.
+/// All channels as they are, with the second one negated if `y_down`.
 template <class T>
 Pyramid<T> value_pyramid(const Image& image, bool y_down) {
     Level<T> top{image.width, image.height, {}};
@@ -80,7 +81,7 @@ Pyramid<T> value_pyramid(const Image& image, bool y_down) {
 using Region = std::array<double, 4>;  ///< s and t from, s and t to
 inline constexpr Region whole{0, 0, 1, 1};
 
-/// The texels of a region whose edges are moved to the nearest texels'.
+/// The texels of a region, whose edges are moved to the nearest edges of texels.
 inline Image cut(const Image& image, const Region& region) {
     const auto edge = [](double at, int size) { return static_cast<int>(std::floor(at * size + 0.5)); };
     const int left = std::min(edge(region[0], image.width), image.width - 1);
@@ -95,7 +96,7 @@ inline Image cut(const Image& image, const Region& region) {
     return out;
 }
 
-/// Builds each pyramid once.
+/// The textures of a scene. Builds each pyramid once.
 template <class T>
 class SceneTextures {
 public:
@@ -106,7 +107,7 @@ public:
         const Address wrap = use.wrap == Wrap::repeat ? Address::repeat : Address::clamp;
         return {pyramid(use.file.string(), content, y_down, region), content, use.upscale, wrap};
     }
-    /// First channel, repeated: a mask.
+    /// The first channel of a file as a texture that repeats, for masks.
     LayerTexture<T> values(const std::string& file) {
         return {pyramid(file, Content::height, false, whole), Content::height, Upscale::plain, Address::repeat};
     }

@@ -4,10 +4,10 @@
 
 namespace wrinkle::reference {
 
-/// psrdnoise in three dimensions [Gustavson and McEwan 2021]. The lattice: points (x, y, z) whose sums y + z, x + z and
-/// x + y are whole. Only the four corners of the point's simplex can be within sqrt(1/2) of it, so every lattice point
-/// around is asked and the kernel max(1/2 - r^2, 0)^3 decides.
-///   period   0, or at how many cells an axis repeats
+/// psrdnoise in three dimensions [Gustavson and McEwan 2021]. The lattice consists of the points (x, y, z) whose sums y
+/// + z, x + z and x + y are whole numbers. Only the four corners of the simplex around a point are within sqrt(1/2) of
+/// it. So all lattice points around are summed here, and the weight max(1/2 - r^2, 0)^3 leaves only the corners.
+///   period   0, or the number of cells after which an axis repeats
 ///   flow     angle in radians by which the gradients are turned
 template <class T>
 NoiseValue<T> simplex_noise(Vec<T> p, Vec<T> period, T flow) {
@@ -21,7 +21,7 @@ NoiseValue<T> simplex_noise(Vec<T> p, Vec<T> period, T flow) {
     for (int i = -2; i <= 4; ++i)
         for (int j = -2; j <= 4; ++j)
             for (int k = -2; k <= 4; ++k) {
-                if ((i + j) % 2 != 0 || (i + k) % 2 != 0) continue;  // all whole, or all half
+                if ((i + j) % 2 != 0 || (i + k) % 2 != 0) continue;  // coordinates are all whole or all halves
                 const Vec<T> corner{cx + T(i) / 2, cy + T(j) / 2, cz + T(k) / 2}, d = p - corner;
                 const T reach = T(1) / 2 - dot(d, d);
                 if (reach <= 0) continue;
@@ -32,7 +32,7 @@ NoiseValue<T> simplex_noise(Vec<T> p, Vec<T> period, T flow) {
                 const T theta = hash * T(3.883222077L), height = T(0.996539792L) - hash * T(0.006920415L);
                 const T psi = hash * T(0.108705628L), radius = std::sqrt(1 - height * height);
                 const Vec<T> g{std::cos(theta) * radius, std::sin(theta) * radius, height};
-                // The other direction of the plane of rotation, perpendicular to g (as published).
+                // Perpendicular to g, and with it in the plane of rotation; as published.
                 const T c = std::sin(theta) * std::sin(psi) - std::cos(theta) * std::cos(psi);
                 const Vec<T> q{c * std::sin(theta) * (1 - height) + std::sin(psi) * height,
                                std::cos(psi) * height - c * std::cos(theta) * (1 - height),

@@ -16,12 +16,13 @@
 namespace wrinkle::reference {
 namespace {
 
-/// Hard rows cancel up to nine of long double's nineteen digits (n.v of a perpendicular v, world offsets of 1e6).
+/// In hard rows, up to nine of the nineteen digits of long double cancel (n.v when v is perpendicular, world offsets of
+/// 1e6).
 real tolerance(const GoldenTable& table, std::size_t row) {
     return table.text(row, "set") == "regular" ? 1e-12L : 1e-10L;
 }
 
-/// The answer and its expectation, where there is one.
+/// Compares an answer with the table's, if the table has one.
 void expect_vec(const GoldenTable& table, std::size_t row, Vec<real> got, const std::string& want) {
     const Vec<real> w = table.vec(row, want);
     if (!finite(w)) return;

@@ -31,7 +31,7 @@ inline Camera shifted_camera() {
 inline Camera orthographic_camera() {
     return {test_view(), {{{0.25, 0, 0, 0}, {0, 0.3, 0, 0}, {0, 0, -0.02, -1}, {0, 0, 0, 1}}}};
 }
-/// A projective map whose w depends on x: no pinhole with planar depth.
+/// A camera whose w depends on x: it has an eye, but no planar depth.
 inline Camera tilted_camera() {
     Camera c = test_camera();
     c.proj[3] = {0.1, 0, -1, 0.05};
@@ -53,7 +53,8 @@ struct TestFrame {
     }
 };
 
-/// The plane through the origin perpendicular to n: position, normal, depth; uv = (x, y) / 4 in world axes.
+/// A frame of the plane through the origin perpendicular to n, with position, normal and depth, and uv = (x, y) / 4
+/// along the world's axes.
 inline TestFrame plane_frame(const Camera& camera, Size size, Vec<double> n) {
     TestFrame f{size, {}};
     for (const char* name : {"position.x", "position.y", "position.z", "uv.u", "uv.v", "depth"}) f.add(name);

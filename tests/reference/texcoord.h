@@ -10,34 +10,35 @@
 
 namespace wrinkle::reference {
 
-/// What a layer sees of its pixel: the surface of its stage.
+/// A pixel as a layer sees it: the surface that its stage bumps.
 template <class T>
 struct Surfel {
     Vec<T> position;  ///< world
     Vec<T> normal;
     ScreenDerivative<T> d;
-    std::optional<TexCoord<T>> uv;          ///< the UV plane; nothing without plane or derivative
-    std::optional<TangentFrame<T>> vertex;  ///< the renderer's tangents; nothing without planes, or not finite
-    bool vertex_planes = false;             ///< the G-buffer has them
-    std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of a plane, per pixel
-    std::optional<double> object{};                   ///< the object's index, where the frame has it
-    std::function<T(const std::string&)> coverage{};  ///< by a Cryptomatte object of this name
+    std::optional<TexCoord<T>> uv;  ///< of the UV plane; nothing when there is no plane or no derivative
+    /// The renderer's tangents; nothing when there are none, or they are not finite.
+    std::optional<TangentFrame<T>> vertex;
+    bool vertex_planes = false;                                              ///< the G-buffer has planes of tangents
+    std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of the plane of this name, per pixel
+    std::optional<double> object{};                   ///< the object's index, if the frame has a plane of it
+    std::function<T(const std::string&)> coverage{};  ///< by the Cryptomatte object of this name
 };
 
-/// Coordinates that are linear in the world point: derivatives by the chain rule.
+/// Texture coordinates that are linear in the world point, with derivatives by the chain rule.
 template <class T, class F>
 TexCoord<T> linear_coordinates(const F& st, Vec<T> point, const ScreenDerivative<T>& d) {
     return {st(point), {st(d.dp_dx), st(d.dp_dy)}};
 }
 
-/// Whether a planar mapping sees a surface edge on, to a cosine of 1e-6: then it gives no tangent frame.
+/// Whether a planar mapping sees a surface edge on, with a cosine below 1e-6. It has no tangent frame then.
 template <class T>
 bool edge_on(const UvMapping& m, Vec<T> n) {
     const Vec<T> axis = cross(from_array<T>(m.axis_u), from_array<T>(m.axis_v));
     return m.source == UvSource::planar && std::abs(dot(n, axis)) <= T(1e-6L) * length(n) * length(axis);
 }
 
-/// (s,t) = R(rotation) (scale (u,v)) + offset, and its derivatives; nothing where the UV plane has none.
+/// (s,t) = R(rotation) (scale (u,v)) + offset, with derivatives. Nothing when the UV plane has none.
 template <class T>
 std::optional<TexCoord<T>> map_coordinates(const UvMapping& m, const Surfel<T>& s) {
     std::optional<TexCoord<T>> uv = s.uv;

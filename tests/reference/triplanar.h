@@ -4,8 +4,8 @@
 
 namespace wrinkle::reference {
 
-/// [Mik20 listing 14] Weights of the three projections: pow(max(0, |n| - 0.2), k), normalised. Divided by the largest
-/// before the power, so that large k keeps at least one of them at 1.
+/// [Mik20 listing 14] Weights of the three projections: pow(max(0, |n| - 0.2), k), normalised. They are divided by the
+/// largest one before the power, so that they do not all underflow when k is large.
 template <class T>
 Vec<T> triplanar_weights(Vec<T> n, T k) {
     const T fifth = T(1) / T(5);

@@ -20,11 +20,11 @@ Columns3<T> placement_matrix(const Placement& at) {
     return {turned({T(at.scale[0]), 0, 0}), turned({0, T(at.scale[1]), 0}), turned({0, 0, T(at.scale[2])})};
 }
 
-/// One of the three planes: its coordinates in metres of a vector of the world.
+/// One of the three planes, as a map from a vector of the world to the plane's coordinates in metres.
 template <class T>
 using PlaneCoordinates = std::function<Vec2<T>(Vec<T>)>;
 
-/// Slopes along a plane's coordinates, metres per metre, or what a plane's object-space normals make of n.
+/// Slopes along a plane's coordinates, in metres per metre; or, of object-space normals, what they make of n.
 template <class T>
 struct PlaneBump {
     Vec2<T> slope;
@@ -34,7 +34,8 @@ struct PlaneBump {
 template <class T>
 using PlaneFunction = std::function<PlaneBump<T>(const PlaneCoordinates<T>& plane, const Surfel<T>& s)>;
 
-/// Of a picture. Options as the paper describes them: sampling coordinates change sign, and so do slopes along them.
+/// A plane that shows a picture. Its options are those of the paper: where they change the sign of a sampling
+/// coordinate, the slope along it changes sign, too.
 template <class T>
 PlaneFunction<T> plane_of(const TextureUse& use, const TriplanarLayer& layer, bool footprint,
                           SceneTextures<T>& textures) {
@@ -53,7 +54,7 @@ PlaneFunction<T> plane_of(const TextureUse& use, const TriplanarLayer& layer, bo
                 transform_normal({row(m.x.x, m.y.x, m.z.x), row(m.x.y, m.y.y, m.z.y), row(m.x.z, m.y.z, m.z.z)},
                                  texture.vector(at, footprint));
             if (is_zero(v)) return {};
-            // No steeper than normal maps are: else a plane of next to no weight would outweigh the others.
+            // Limited as slopes of normal maps are, or a plane with hardly any weight could outweigh the others.
             const Vec<T> g = surface_gradient_from_normal(s.normal, v);
             return {{}, g * std::min(T(1), T(128) / length(g))};
         }
@@ -64,7 +65,7 @@ PlaneFunction<T> plane_of(const TextureUse& use, const TriplanarLayer& layer, bo
         }
         d = {d.x, d.y * up};
         if (content != Content::normal) return {d * (1 / T(layer.tile)), {}};
-        // Slopes of normals have no unit: a metre of the plane is one of the world.
+        // Slopes of normals have no unit, so a metre in the plane counts as a metre of the world.
         const auto metres = [&](Vec2<T> c) {
             const auto part = [&](Vec<T> axis) { return dot(Vec2<T>{c.x, c.y}, plane(axis) - plane(Vec<T>{})); };
             return length(Vec<T>{part({1, 0, 0}), part({0, 1, 0}), part({0, 0, 1})});
@@ -73,7 +74,7 @@ PlaneFunction<T> plane_of(const TextureUse& use, const TriplanarLayer& layer, bo
     };
 }
 
-/// Of noise: the solid noise where the third coordinate is a third of a cell of the first octave.
+/// A plane that shows noise: a slice of the noise in space, a third of a cell of the first octave above 0.
 template <class T>
 PlaneFunction<T> plane_of(const NoiseLayer& noise, const TriplanarLayer&, bool footprint, SceneTextures<T>&) {
     return [=, value = layer_noise<T>(noise), depth = 1 / (3 * T(noise.frequency))](
@@ -89,8 +90,8 @@ PlaneFunction<T> plane_of(const NoiseLayer& noise, const TriplanarLayer&, bool f
     };
 }
 
-/// [Mik20 4.4] The projection takes place in object space: points go there by the inverse of M, normals by its
-/// transposed, and gradients come back by the inverse transposed.
+/// [Mik20 4.4] The projection takes place in object space: points are taken there by the inverse of M and normals by
+/// the transpose of M; gradients are taken back by the inverse transpose.
 template <class T>
 LayerFunction<T> make_layer(const TriplanarLayer& layer, bool footprint, SceneTextures<T>& textures) {
     std::array<PlaneFunction<T>, 3> planes;
@@ -104,7 +105,7 @@ LayerFunction<T> make_layer(const TriplanarLayer& layer, bool footprint, SceneTe
         const Columns3<T> m = placement_matrix<T>(layer.transform);
         const T det = dot(m.x, cross(m.y, m.z));
         const T z_sign = layer.handedness == Handedness::right ? T(-1) : T(1);
-        // Of the inverse; z as it is sampled.
+        // Rows of the inverse, with the sign of z as it is sampled.
         const Vec<T> rows[] = {cross(m.y, m.z) / det, cross(m.z, m.x) / det, cross(m.x, m.y) * (z_sign / det)};
         Surfel<T> local = s;
         local.position = s.position - from_array<T>(layer.transform.translate);

@@ -8,24 +8,25 @@
 
 namespace wrinkle::reference {
 
-/// What the neighbour rule looks at in one pixel.
+/// A pixel, as far as the rule for neighbours depends on it.
 template <class T>
 struct UvPixel {
     bool valid = false;
     std::optional<float> object;  ///< nothing when the G-buffer has no object plane
-    Vec<T> normal;                ///< as it came, but unit
+    Vec<T> normal;                ///< of the frame, made unit
     Vec<T> position;
     Vec2<T> uv;
 };
 
-/// Whether j may be differenced with i along an axis of position derivative dp: no object, normal or depth break.
+/// Whether pixel j may be differenced with pixel i, along an axis of the picture with position derivative dp: there
+/// must be no break of object, normal or depth between them.
 template <class T>
 bool same_surface(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
     const Vec<T> step = j.position - i.position;
     return j.valid && i.object == j.object && dot(i.normal, j.normal) > T(1) / 2 && dot(step, step) <= 16 * dot(dp, dp);
 }
 
-/// A step between pixels in space and what the texture coordinates change by along it.
+/// A step in space between two pixels, and the change of the texture coordinates along it.
 template <class T>
 struct UvChange {
     Vec2<T> uv;
@@ -34,8 +35,7 @@ struct UvChange {
     UvChange operator+(const UvChange& b) const { return {uv + b.uv, step + b.step}; }
 };
 
-/// From i to j if j may be differenced with i along an axis of position derivative dp: no object, normal, depth or UV
-/// break between them.
+/// The change from i to j, if there is no break of object, normal, depth or UV between them.
 template <class T>
 std::optional<UvChange<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
     const Vec2<T> d = j.uv - i.uv;
@@ -45,9 +45,9 @@ std::optional<UvChange<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& 
     return UvChange<T>{d, j.position - i.position};
 }
 
-/// The change along an axis from a forward and a backward difference: the one of the smaller UV step where one is more
-/// than twice the other, unless it is none; the larger where they point apart, as across a seam that mirrors; else the
-/// mean.
+/// The change along an axis, from a forward and a backward difference. When one step of UV is more than twice as long
+/// as the other: the shorter one, unless that is zero. When they point in opposite directions, as at a seam that
+/// mirrors: the longer one. Else their mean.
 template <class T>
 std::optional<UvChange<T>> combine_differences(std::optional<UvChange<T>> forward,
                                                std::optional<UvChange<T>> backward) {
@@ -60,8 +60,9 @@ std::optional<UvChange<T>> combine_differences(std::optional<UvChange<T>> forwar
     return (*forward + *backward) * (T(1) / 2);
 }
 
-/// d(u,v)/dx and d(u,v)/dy: with an orthonormal basis of the tangent plane, the gradient that explains both changes,
-/// times dp_dx and dp_dy. The changes themselves where the steps span less than a 64th of what dp_dx and dp_dy do.
+/// d(u,v)/dx and d(u,v)/dy: the gradient that explains both changes, in an orthonormal basis of the tangent plane,
+/// times dp_dx and dp_dy. When the steps span less than a 64th of the area that dp_dx and dp_dy span: the changes
+/// themselves.
 template <class T>
 std::pair<Vec2<T>, Vec2<T>> uv_derivatives(const UvChange<T>& x, const UvChange<T>& y, Vec<T> dp_dx, Vec<T> dp_dy) {
     const Vec<T> first = normalize(dp_dx), second = normalize(dp_dy - first * dot(dp_dy, first));
@@ -75,8 +76,8 @@ std::pair<Vec2<T>, Vec2<T>> uv_derivatives(const UvChange<T>& x, const UvChange<
     return {along(right), along(down)};
 }
 
-/// [Mik20 listing 7] Change of a height along an axis: to the next pixel, else, where that is not on the surface, from
-/// the one before.
+/// [Mik20 listing 7] The change of a height along an axis: to the next pixel or, when that is not on the same surface,
+/// from the one before.
 template <class T>
 std::optional<T> height_difference(const UvPixel<T>& here, const UvPixel<T>& before, const UvPixel<T>& after, T h,
                                    T h_before, T h_after, Vec<T> dp) {
@@ -85,8 +86,8 @@ std::optional<T> height_difference(const UvPixel<T>& here, const UvPixel<T>& bef
     return std::nullopt;
 }
 
-/// Change of the unit normal along an axis: the mean of the steps to those neighbours that lie on the surface, 0 where
-/// none does.
+/// The change of the unit normal along an axis: the mean of the changes to those neighbours that lie on the same
+/// surface; 0 when none does.
 template <class T>
 Vec<T> normal_difference(const UvPixel<T>& here, const UvPixel<T>& before, const UvPixel<T>& after, Vec<T> dp) {
     std::vector<Vec<T>> steps;
@@ -97,7 +98,7 @@ Vec<T> normal_difference(const UvPixel<T>& here, const UvPixel<T>& before, const
     return sum;
 }
 
-/// d(u,v)/dx from dp/du and dp/dv: the least squares solution of dp_dx = a dp_du + b dp_dv; nothing where dp_du and
+/// d(u,v)/dx from dp/du and dp/dv: the least squares solution of dp_dx = a dp_du + b dp_dv. Nothing when dp_du and
 /// dp_dv are parallel or zero.
 template <class T>
 std::optional<Vec2<T>> uv_derivative_from_tangents(Vec<T> dp, Vec<T> dp_du, Vec<T> dp_dv) {

@@ -55,8 +55,9 @@ TEST(UvDerivative, MeanUnlessOneIsMoreThanTwiceTheOther) {
 
 TEST(UvDerivative, ChangesAlongAnyTwoStepsGiveTheGradientOfALinearMap) {
     const V dp_dx{0.1L, 0.02L, 0}, dp_dy{-0.03L, 0.2L, 0};
-    const auto map = [](V p) { return V2{3 * p.x - p.y, 0.5L * p.x + 2 * p.y}; };         // of the plane's points
-    const auto change = [&](V step) { return Change{map(step), step + V{0, 0, 0.7L}}; };  // off it: projected
+    const auto map = [](V p) { return V2{3 * p.x - p.y, 0.5L * p.x + 2 * p.y}; };  // of points of the plane
+    // Steps leave the plane, and must be projected.
+    const auto change = [&](V step) { return Change{map(step), step + V{0, 0, 0.7L}}; };
     const auto [dx, dy] = uv_derivatives(change({0.06L, 0.01L, 0}), change({0.01L, 0.08L, 0}), dp_dx, dp_dy);
     EXPECT_NEAR(dx.x, map(dp_dx).x, 1e-17L);
     EXPECT_NEAR(dx.y, map(dp_dx).y, 1e-17L);

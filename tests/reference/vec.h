@@ -105,14 +105,14 @@ Vec<T> normalize(Vec<T> a) {
     return b / std::sqrt(dot(b, b));
 }
 
-/// Angle between two directions, degrees; from atan2, which keeps its digits at 0 and 180 where acos loses them.
+/// The angle between two directions, in degrees. By atan2, since acos loses digits near 0 and 180.
 template <class T>
 T angle_degrees(Vec<T> a, Vec<T> b) {
     const Vec<T> u = normalize(a), v = normalize(b);
     return std::atan2(length(cross(u, v)), dot(u, v)) * T(180) / std::numbers::pi_v<T>;
 }
 
-/// |a - want| / |want|; plain |a| where want is zero.
+/// |a - want| / |want|, or |a| when want is zero.
 template <class T>
 T relative_error(Vec<T> a, Vec<T> want) {
     const T size = length(want);

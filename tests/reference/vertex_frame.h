@@ -4,7 +4,7 @@
 
 namespace wrinkle::reference {
 
-/// [Mik20 listing 9] mikktsTangent, mikktsBitangent: of the normal, tangent and sign as interpolated.
+/// [Mik20 listing 9] mikktsTangent and mikktsBitangent, from the interpolated normal, tangent and sign.
 template <class T>
 TangentFrame<T> vertex_frame(Vec<T> n, Vec<T> tangent, T sign) {
     const T size = length(n);

@@ -12,13 +12,13 @@ namespace wrinkle::reference {
 template <class T>
 using Voxels = std::function<T(int, int, int)>;
 
-/// Sum over the voxels around p of weight products: `basis(d)` and `slope(d)`, its derivative, at the distance d from a
-/// voxel, along each axis.
+/// Value and gradient at p, as a sum over the voxels around. A voxel's weight is the product of basis(d) over the three
+/// axes, where d is its distance along the axis; slope(d) is the derivative of basis(d).
 template <class T>
 NoiseValue<T> spline_sum(const Voxels<T>& voxel, Vec<T> p, T (*basis)(T), T (*slope)(T)) {
     const T at[] = {p.x, p.y, p.z};
     int low[3];
-    T rest[3];  // from the voxel at or below: what rounding does to it is the same for all voxels
+    T rest[3];  // distance from the voxel at or below p, rounded only once for all voxels
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = static_cast<int>(std::floor(at[axis])) - 1;
         rest[axis] = at[axis] - std::floor(at[axis]);
@@ -38,7 +38,7 @@ NoiseValue<T> spline_sum(const Voxels<T>& voxel, Vec<T> p, T (*basis)(T), T (*sl
     return sum;
 }
 
-/// Trilinear interpolation: hat functions. At a voxel the slope is that of the cell above.
+/// Trilinear interpolation, whose basis are hat functions. Exactly at a voxel, the slope is that of the cell above.
 template <class T>
 NoiseValue<T> trilinear(const Voxels<T>& voxel, Vec<T> p) {
     return spline_sum<T>(
@@ -48,7 +48,7 @@ NoiseValue<T> trilinear(const Voxels<T>& voxel, Vec<T> p) {
                                            : T(0); });
 }
 
-/// The quadratic B-spline, centred on voxels.
+/// The quadratic B-spline, with its knots halfway between voxels.
 template <class T>
 NoiseValue<T> quadratic_spline(const Voxels<T>& voxel, Vec<T> p) {
     return spline_sum<T>(
@@ -63,7 +63,7 @@ NoiseValue<T> quadratic_spline(const Voxels<T>& voxel, Vec<T> p) {
         });
 }
 
-/// Height and its derivative by the value, for `remap` over a range of values.
+/// The height for a value of the volume, and its derivative by the value, for a `remap` over a range.
 template <class T>
 Vec2<T> remapped(Remap remap, T value, T low, T high) {
     const T t = (value - low) / (high - low), s = saturate(t), pi = std::numbers::pi_v<T>;
@@ -93,8 +93,8 @@ NoiseValue<T> golden_ratio(Vec<T> p) {
     return f;
 }
 
-/// First distance along the ray within the ball of `radius` where f changes sign, from small steps and bisection; 0
-/// where there is none.
+/// The first distance along a ray, within a ball of that radius, at which f changes sign; by small steps and bisection.
+/// 0 when there is none.
 template <class T>
 T golden_distance(Vec<T> eye, Vec<T> ray, T radius) {
     const auto f = [&](T t) { return golden_ratio(eye + ray * t).value; };

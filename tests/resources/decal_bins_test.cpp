@@ -1,4 +1,5 @@
-// Bins of decals: no decal is ever missing from the list of a tile that it touches, and few are there for nothing.
+// Bins of decals: no decal is missing from the list of a tile that it touches, and few are listed where they do not
+// touch.
 #include "resources/decal_bins.h"
 
 #include <set>
@@ -12,11 +13,11 @@ namespace {
 
 struct Found {
     BinReport bins;
-    std::uint64_t touching = 0;  ///< pairs of a tile and a decal that covers a pixel of it
-    std::uint64_t lost = 0;      ///< of these, not listed
+    std::uint64_t touching = 0;  ///< pairs of a tile and a decal that covers one of its pixels
+    std::uint64_t lost = 0;      ///< those of them that are missing from the tile's list
 };
 
-/// Runs a scene whose last layer is a table, and asks every decal of every pixel.
+/// Runs a scene whose last layer is a table, and compares the lists with a test of every decal at every pixel.
 Found brute_force(const HostFrame& frame, const Scene& scene, std::uint32_t limit = 0) {
     Pass pass = evaluate(device(), scene, frame.frame);
     pass.impl().bins.limit_entries(limit);
@@ -116,7 +117,7 @@ TEST(DecalBins, LoseNothingThatParallaxesMoveThere) {
             for (const HostFrame* each : {&frame, &parallel}) {
                 Scene scene = table_scene({});
                 scene.layers.insert(scene.layers.begin(), layers.begin(), layers.end());
-                // Around where pixels are moved to: that is where a list may lack them.
+                // Decals around the points that pixels are moved to, as those could be missing from lists.
                 std::get<DecalsLayer>(scene.layers.back().bump).rows = std::make_shared<const std::vector<Projector>>(
                     decals_around(positions(*each, layers), 300, 0.003, 0.3, seed));
                 expect_none_lost(fmt::format("{}, seed {}", name, seed), *each, scene);

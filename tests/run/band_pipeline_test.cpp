@@ -14,7 +14,7 @@ namespace {
 TEST(BandPipeline, EveryBandPassesEveryStageInOrder) {
     constexpr std::uint32_t in_flight = 4;
     for (const std::uint32_t bands : {0u, 1u, 3u, 200u}) {
-        std::array<std::vector<std::uint32_t>, 3> seen;  // each only touched by its stage
+        std::array<std::vector<std::uint32_t>, 3> seen;  // each is used by one stage only, so no lock is needed
         std::array<std::atomic<std::uint32_t>, 3> done{};
         const auto stage = [&](std::size_t s) {
             return [&, s](std::uint32_t band) {
@@ -36,7 +36,8 @@ TEST(BandPipeline, EveryBandPassesEveryStageInOrder) {
 }
 
 TEST(BandPipeline, StagesRunBesideEachOther) {
-    // Band 0 is only written once band 2 has been read, band 2 only read while band 1 waits to be evaluated.
+    // Band 1 is not evaluated before all bands have been read, and band 0 is not written before all have been
+    // evaluated: this ends only if the three stages run at the same time.
     std::atomic<std::uint32_t> read{0}, evaluated{0};
     const auto until = [](const auto& value, std::uint32_t least) {
         for (auto now = value.load(); now < least; now = value.load()) value.wait(now);

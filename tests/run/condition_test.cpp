@@ -1,4 +1,4 @@
-// The condition of pixels, against inputs that are really moved by one ulp.
+// The condition of pixels is compared with what happens when inputs are really moved by one ulp.
 #include "run/condition.h"
 
 #include <bit>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnit = 0x1p-24;
 
-/// Every plane that counts, each number one ulp up or down by a seed.
+/// The frame with every number of the planes that condition moves one ulp up or down, as a seed says.
 HostFrame moved(HostFrame frame, unsigned seed) {
     std::mt19937 random(seed);
     for (auto& [name, plane] : frame.pixels) {
@@ -33,7 +33,7 @@ std::vector<float> condition_of(const HostFrame& frame, const Scene& scene) {
     return condition.evaluate(planes, {.first = 0, .count = frame.frame.size.height});
 }
 
-/// Radians between the normals that the reference gives in double before and after the inputs moved.
+/// The angles, in radians, by which the reference's normals turn when the inputs are moved.
 std::vector<double> turned(const HostFrame& frame, const Scene& scene, unsigned seed) {
     const Truth before(frame, scene), after(moved(frame, seed), scene);
     std::vector<double> out(frame.count());
@@ -64,8 +64,9 @@ TEST_P(ConditionScenes, BoundsWhatInputsMovedByAnUlpDo) {
     print(std::string(GetParam()) + ": turn / condition", spread, "");
     EXPECT_GT(spread.count, frame.count() / 4);
     EXPECT_EQ(spread.non_finite, 0u);
-    // Signs of several inputs mostly cancel in part, never add up to more than their sum; but those of neighbours,
-    // which texture coordinates are differenced with, are others than those that condition drew.
+    // Inputs that move in random directions partly cancel each other, so a normal turns by less than the condition,
+    // which adds them all up. But neighbours, which texture coordinates are differenced with, move in other directions
+    // here than when condition was computed, so a few pixels may turn by more.
     EXPECT_GT(spread.median, 0.1);
     EXPECT_LT(spread.median, 1);
     EXPECT_LT(spread.p99, 2) << "seed " << seed;
@@ -79,7 +80,8 @@ TEST(Condition, NeedsDoublePrecision) {
     EXPECT_THROW(Condition(without, Scene{}, small_frame().frame), Error);
 }
 
-TEST(Condition, IsOfANormalWhatItsRoundingIs) {  // nothing is bumped: the normal's own three ulps, whatever its place
+// Nothing is bumped here, so condition is only what an ulp in each of the normal's three components does.
+TEST(Condition, IsOfANormalWhatItsRoundingIs) {
     const HostFrame frame = small_frame();
     const std::vector<float> condition = condition_of(frame, {});
     const Truth truth(frame, {});
@@ -88,7 +90,7 @@ TEST(Condition, IsOfANormalWhatItsRoundingIs) {  // nothing is bumped: the norma
             EXPECT_EQ(condition[i], 0) << i;
             continue;
         }
-        EXPECT_LE(condition[i], 2 * (1 + 1 + 1)) << i;  // an ulp is 2^-23 of a number at most
+        EXPECT_LE(condition[i], 2 * (1 + 1 + 1)) << i;  // an ulp is at most 2^-23 of a number: two units
     }
 }
 

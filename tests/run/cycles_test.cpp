@@ -1,11 +1,11 @@
-// Height maps against other people's software: the normals that Blender Cycles' Bump node made of the same map,
-// distance and UV (data/make/render_cycles_bump.py), from the unbumped passes of the same pixels and by the default
-// path: bare UV, depth, mips.
+// Height maps against other people's software: the normals that the Bump node of Blender Cycles makes from the same
+// map, distance and UV (data/make/render_cycles_bump.py). wrinkle gets the unbumped passes of the same pixels and works
+// as it does by default, with a bare UV pass, depth and mips.
 //
-// Cycles keeps reflections above the surface: it bends a shading normal whose mirror direction R of the viewer dips
-// below n.R = 0.01, for every closure in 3.4. Those pixels hold another normal on purpose and are left out, with a
-// margin, and counted. What remains: one-sided differences of UV at the silhouettes of the torus (nearly all of its
-// last percent), and slopes that the Sobel operator and mips smooth where Cycles takes the texture's own.
+// Cycles bends shading normals so that reflections stay above the surface: where the viewer's mirror direction R has
+// n.R < 0.01, for every closure in 3.4. These pixels have another normal on purpose. They are left out, with a margin,
+// and counted. The differences that remain are one-sided differences of UV at the torus's silhouette (nearly all of its
+// last percent), and slopes that the Sobel operator and mips smooth, where Cycles uses the texture as it is.
 #include "tests/run/run_frame.h"
 
 namespace wrinkle::test {
@@ -13,13 +13,13 @@ namespace {
 
 using namespace std::string_literals;
 
-constexpr double kept_reflection = 0.05;  // Cycles': 0.01; the normals differ by degrees
+constexpr double kept_reflection = 0.05;  // Cycles has 0.01; the margin is for normals that differ by some degrees
 
 struct CyclesCase {
     const char* name;
-    double median, p99;  ///< degrees, at most
-    double bump;         ///< degrees between the base normal and Cycles' bumped one, median, at least
-    double left_out;     ///< share of the pixels, at most
+    double median, p99;  ///< upper bounds of the differences, degrees
+    double bump;         ///< lower bound of the median angle by which Cycles tilts normals, degrees
+    double left_out;     ///< upper bound of the share of pixels that are left out
 };
 
 class CyclesBump : public testing::TestWithParam<CyclesCase> {};

@@ -39,7 +39,7 @@ inline Projector random_decal(Random& random, const Vec3& center, double half) {
     return p;
 }
 
-/// World positions of a frame's pixels as the reference decodes them, moved by the parallaxes among `layers`.
+/// The world positions of a frame's pixels, by the reference, moved by those of `layers` that are parallaxes.
 inline std::vector<std::optional<V>> positions(const HostFrame& frame, std::vector<Layer> layers = {}) {
     Scene scene;
     scene.layers = std::move(layers);
@@ -72,7 +72,7 @@ inline std::vector<Projector> on_surfaces(const HostFrame& frame, std::size_t co
     return decals_around(positions(frame), count, low, high, seed);
 }
 
-/// Layers that move points: up, down, twice, with the normal turned between, and after a resolve.
+/// Stacks of layers that move points: up, down, twice, with a turn of the normal in between, and after a resolve.
 inline std::vector<std::pair<std::string, std::vector<Layer>>> parallax_stacks() {
     const auto parallax = [](const char* name, ParallaxLayer bump, double depth) {
         bump.texture.file = data_folder / "textures/cobbles_height.png";

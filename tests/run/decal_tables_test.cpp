@@ -1,4 +1,5 @@
-// Tables of decals, against the double evaluator, and against themselves in another order or made in another way.
+// Tables of decals are compared with the double-precision evaluator, and with the same decals in another order or
+// written in another way.
 #include "tests/run/decal_frames.h"
 
 namespace wrinkle::test {
@@ -71,7 +72,7 @@ TEST(DecalTables, InDoubleAndInSplitKernels) {
     expect_within("double", normal_error(run<double>(pass, frame), truth), {3e-6, 2e-5, 2e-4}, "degrees");
 }
 
-/// Blocks of pixels share some at the borders, and do not fit into the smallest frames.
+/// At the borders of a frame blocks of pixels overlap, and into the smallest frames they do not fit.
 TEST(DecalTables, OnFramesOfAnySize) {
     const HostFrame whole = small_frame();
     for (const Size size : {Size{1, 9}, {3, 3}, {9, 1}, {4, 2}, {4, 4}, {5, 7}, {33, 18}}) {
@@ -86,7 +87,7 @@ TEST(DecalTables, OnFramesOfAnySize) {
             plane = std::move(part);
         }
         Scene scene = table_scene(on_surfaces(frame, 60, 0.1, 0.8, 26));
-        scene.layers[0].footprint = false;  // large where few pixels make a frame: nothing would be left to see
+        scene.layers[0].footprint = false;  // pixels of a tiny frame are so large that mips would leave nothing
         const Truth truth(frame, scene);
         EXPECT_GT(bumped_pixels(truth), 0u);
         for (const int lanes : {1, 4, 8, 16})
@@ -96,7 +97,8 @@ TEST(DecalTables, OnFramesOfAnySize) {
     }
 }
 
-/// Every shape with every content, clamped and tiled, by itself so that nothing hides an error.
+/// Every shape with every content, clamped and tiled. Each is alone in its scene, so that no other decal hides an
+/// error.
 TEST(DecalTables, OfEveryShapeAndContent) {
     const HostFrame frame = small_frame();
     const std::pair<Content, const char*> contents[] = {{Content::height, "textures/seal_height.png"},

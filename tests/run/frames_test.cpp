@@ -1,4 +1,5 @@
-// Frames of odd sizes, with broken pixels, under every kind of camera and geometry, against the double evaluator.
+// Frames of odd sizes, with broken pixels, and with every kind of camera and geometry, compared with the
+// double-precision evaluator.
 #include <cmath>
 #include <random>
 
@@ -11,7 +12,7 @@ using reference::CameraRays;
 
 const V slanted = normalize(V{0.1, -0.2, 1});
 
-/// A normal map on the UV plane, a planar height map, noise; textures of data/.
+/// A scene of a normal map on the UV plane, a planar height map and noise, with textures of data/.
 Scene small_scene() {
     Scene scene;
     NormalMapLayer weave;
@@ -27,7 +28,7 @@ Scene small_scene() {
     return scene;
 }
 
-/// Everything that small_scene writes, against the reference.
+/// Compares everything that small_scene writes with the reference.
 void expect_agreement(const std::string& what, const HostFrame& frame, const Scene& scene) {
     const Truth truth(frame, scene);
     const Pixels got = evaluate_on(frame, scene);
@@ -72,10 +73,10 @@ TEST(Frames, WithBrokenPixels) {
     for (const char* name : {"normal.x", "normal.y", "normal.z", "depth", "uv.u", "uv.v"})
         for (const float value : broken)
             for (int k = 0; k < 3; ++k)
-                // A denormal depth is 0 on devices that flush; kernels call it invalid everywhere.
+                // Kernels take a denormal depth as invalid on every device, since some flush it to 0.
                 if (std::string(name) != "depth" || value == 0 || std::abs(value) > 1e-38f)
                     frame.pixels.at(name)[random() % frame.count()] = value;
-    for (int k = 0; k < 20; ++k) {  // no normal at all; back-facing ones
+    for (int k = 0; k < 20; ++k) {  // normals of zero, and normals that face away
         const std::size_t i = random() % frame.count();
         for (const char* name : {"normal.x", "normal.y", "normal.z"}) frame.pixels.at(name)[i] *= k < 10 ? 0.0f : -3.0f;
     }
@@ -216,7 +217,8 @@ TEST(Frames, ObjectNormalsOfATurnedScaledAndMirroredObject) {
     rope.channels = {{{0, 1, 0}, {0, 0, -1}, {1, 0, 0}}};
     rope.object_to_world = {{{0.5, 1, 0.2}, {-2, 0.3, 0}, {0.1, 0, -3}}};
     scene.layers[0].bump = rope, scene.layers[0].scale = 0.3;
-    const Truth truth(frame, scene);  // gradients of normals that are nearly tangent are huge: angles only
+    const Truth truth(frame,
+                      scene);  // only angles are compared, as gradients are huge where normals are nearly tangent
     expect_within("object normals", normal_error(evaluate_on(frame, scene), truth), {1e-4, 1e-3, 3e-3}, "degrees");
     std::get<ObjectNormalLayer>(scene.layers[0].bump).object_to_world[2] = {0, 0, 0};
     EXPECT_THROW(evaluate(device(), scene, frame.frame), Error);
@@ -272,7 +274,7 @@ TEST(Frames, DecalsOfSlopesAndTheirRegions) {
 TEST(Frames, InvertedTextureMaskIsZeroWithoutUvDerivative) {
     HostFrame frame(plane_frame(test_camera(), {9, 9}, slanted), test_camera());
     frame.add("object");
-    frame.pixels.at("object")[40] = 1;  // the middle pixel has no neighbour of its object
+    frame.pixels.at("object")[40] = 1;  // the pixel in the middle is an object of its own, without neighbours
     Scene scene;
     scene.layers.resize(1);
     scene.layers[0].bump = ConstantLayer{{0.3, 0, 0}};

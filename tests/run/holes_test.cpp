@@ -1,4 +1,4 @@
-// Planes that are not finite here and there: what stands there instead, and that it is marked.
+// Planes with some numbers that are not finite: what is written there instead, and that these pixels are marked.
 #include <cmath>
 #include <limits>
 

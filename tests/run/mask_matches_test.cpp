@@ -1,4 +1,4 @@
-// Masks that no pixel matches are told, once a layer.
+// A warning tells of masks that no pixel matches, once for each layer.
 #include "run/mask_matches.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The passes beside evaluate, the caller's own queue and buffers, and what the library refuses.
+// The other passes than evaluate; the caller's own queue and buffers; what the library refuses.
 #include <algorithm>
 
 #include "tests/run/run_frame.h"
@@ -27,8 +27,7 @@ void expect_refused(const std::string& text, const std::vector<std::string>& par
     for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }
 
-/// The layers of data/scenes/decals.toml with the angle fade fully open and level-0 texels, whose weights need no
-/// normal.
+/// The layers of data/scenes/decals.toml without angle fade and without mips, so that nothing depends on a normal.
 Scene open_decals() {
     Scene scene = data_scene("decals");
     scene.lighting.relight = Relight::off;
@@ -83,8 +82,8 @@ TEST(ScreenDerivatives, AreTheStepsToTheNeighboursOnAPlane) {
         const Size size = frame.frame.size;
         Pass pass = screen_derivatives(device(), frame.frame);
         const Pixels got = run(pass, frame);
-        // A point's derivative is the step to the next pixel up to the plane's foreshortening from here to there, which
-        // central differences of the true positions cancel to second order.
+        // The derivative at a pixel is compared with the central difference of true positions, which differs from it
+        // only to second order.
         const CameraRays<double> rays(camera, size);
         const auto point = [&](double x, double y) {
             const V a = rays.at_depth(x, y, 1), d = rays.at_depth(x, y, 2) - a;

@@ -1,11 +1,12 @@
-// Planar mappings that see a surface edge on: where the bitangent would point is rounding, so it is left as it was.
+// Planar mappings that see a surface edge on. Only rounding would decide where the bitangent points, so such a surface
+// is not bumped.
 #include "tests/run/run_frame.h"
 
 namespace wrinkle::test {
 namespace {
 
-/// The largest angle between what standard, exact and double make of a plane of this normal under a woven normal map
-/// projected along y, and how far the furthest of them turns the plane's normal, both in degrees.
+/// For a plane under a normal map that is projected along y: the largest angle between the results of standard, exact
+/// and double, and the largest angle by which any of them turns the plane's normal, both in degrees.
 struct Turned {
     double apart = 0, bumped = 0;
 };
@@ -41,7 +42,7 @@ TEST(Planar, EdgeOnIsNotBumped) {
     EXPECT_LE(edge_on.bumped, 1e-5);
     EXPECT_LE(edge_on.apart, 1e-5);
     EXPECT_GT(seen.bumped, 5);
-    EXPECT_LE(seen.apart, 0.5);  // far texels, unfiltered
+    EXPECT_LE(seen.apart, 0.5);  // the texels lie far from the origin and are not filtered
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
 
-/// Frames in memory, passes run on them, errors against the references.
+/// Frames in memory, runs of passes on them, and errors by the references.
 namespace wrinkle::test {
 
 namespace fs = std::filesystem;
@@ -56,8 +56,9 @@ struct HostFrame {
     HostPlanes planes() const { return {pixels.begin(), pixels.end()}; }
 };
 
-/// A camera whose axes are orthonormal to double accuracy; those of files are to float accuracy, so that inverting the
-/// view matrix and transposing it, as the references do, put points apart by more than a kernel's rounding.
+/// A camera with axes that are orthonormal to double precision. Those of camera files are so only to float precision,
+/// and then inverting the view matrix, and transposing it as the references do, give points that differ by more than a
+/// kernel's rounding.
 inline Camera orthonormal(Camera camera) {
     const auto row = [&](int i) { return V{camera.view[i][0], camera.view[i][1], camera.view[i][2]}; };
     const Mat4 world = inverse(camera.view);
@@ -67,7 +68,7 @@ inline Camera orthonormal(Camera camera) {
     return camera;
 }
 
-/// A frame of data/gbuffer, every channel of it.
+/// A frame of data/gbuffer, with all of its channels.
 inline HostFrame data_frame(const std::string& name) {
     const GBufferReader reader(data_folder / "gbuffer" / (name + ".exr"));
     CameraSource source;
@@ -94,7 +95,7 @@ inline Scene data_scene(const std::string& name) {
     return scene;
 }
 
-/// Runs a pass on host memory: every output it has.
+/// Runs a pass on host memory, and gives all of its outputs.
 template <class T = float>
 std::map<std::string, std::vector<T>> run(Pass& pass, const HostFrame& frame) {
     std::map<std::string, std::vector<T>> out;
@@ -116,7 +117,7 @@ V vec_at(const std::map<std::string, std::vector<T>>& planes, const std::string&
     return color ? V{part("r"), part("g"), part("b")} : V{part("x"), part("y"), part("z")};
 }
 
-/// Numbers by their order: median, p99, max, and how many were not finite.
+/// The median, 99% and largest of some numbers, and how many were not finite.
 struct Spread {
     double median = 0, p99 = 0, max = 0;
     std::size_t count = 0, non_finite = 0;
@@ -147,7 +148,7 @@ inline void expect_within(const std::string& what, const Spread& s, const Bounds
     EXPECT_LE(s.max, bounds.max) << what;
 }
 
-/// What the reference makes of every pixel.
+/// The answers of the reference for every pixel.
 struct Truth {
     std::vector<reference::Evaluated<double>> pixels;
     std::vector<V> lit;
@@ -165,8 +166,8 @@ struct Truth {
     }
 };
 
-/// Degrees between the normals of a run and the true ones, valid pixels only, without those left out; invalid ones must
-/// be passed through.
+/// The angles, in degrees, between the normals of a run and the true ones at all valid pixels but those left out.
+/// Normals of invalid pixels must have stayed as they were.
 template <class T>
 Spread normal_error(const std::map<std::string, std::vector<T>>& got, const Truth& truth,
                     const std::vector<bool>& left_out = {}) {
@@ -182,7 +183,7 @@ Spread normal_error(const std::map<std::string, std::vector<T>>& got, const Trut
     return Spread(std::move(errors));
 }
 
-/// Pixels whose `marked` differs from the true one.
+/// The number of pixels whose `marked` differs from the true one.
 template <class T>
 std::size_t marked_differences(const std::map<std::string, std::vector<T>>& got, const Truth& truth) {
     std::size_t count = 0;
@@ -191,7 +192,7 @@ std::size_t marked_differences(const std::map<std::string, std::vector<T>>& got,
     return count;
 }
 
-/// Largest difference of any output of two runs.
+/// The largest difference between any two outputs of two runs.
 template <class A, class B>
 double largest_difference(const std::map<std::string, std::vector<A>>& a,
                           const std::map<std::string, std::vector<B>>& b) {

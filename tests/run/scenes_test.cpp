@@ -1,4 +1,5 @@
-// The fused kernel of every scene of data/scenes on a rendered frame, against the double evaluator of the references.
+// The fused kernel of every scene of data/scenes, on a rendered frame, compared with the double-precision evaluator of
+// the references.
 #include "tests/run/run_frame.h"
 
 namespace wrinkle::test {
@@ -6,13 +7,13 @@ namespace {
 
 struct SceneCase {
     const char* name;
-    Bounds degrees;      ///< of the normals
-    Bounds relative;     ///< of the light, as a share of it (0.01 at least)
-    bool jumps = false;  ///< gradients jump somewhere: pixels next to that do not count
+    Bounds degrees;      ///< bounds of the normals' errors
+    Bounds relative;     ///< bounds of the errors of lit colours, relative to the colour or at least to 0.01
+    bool jumps = false;  ///< gradients jump somewhere, and pixels near that are left out
 };
 
-/// Whether the true normal turns by more than half a degree when the point moves by a 50,000th of its distance: there,
-/// the gradient jumps, or nearly so, and rounding decides on which side of that a pixel lies.
+/// Whether a pixel's true normal turns by more than half a degree when its point moves by a 50,000th of its distance.
+/// There the gradient jumps, or nearly does, and rounding decides on which side of the jump the pixel lies.
 std::vector<bool> near_jumps(const HostFrame& frame, const Scene& scene, const Truth& truth) {
     std::vector<bool> near(frame.count());
     for (const float nearer : {1 - 2e-5f, 1 + 2e-5f}) {
@@ -47,9 +48,9 @@ TEST_P(DataScene, AgreesWithTheReference) {
     expect_within(std::string(expected.name) + ": lit", Spread(std::move(errors)), expected.relative, "relative");
 }
 
-// About three times what was measured with PoCL 3.1 at 16 lanes. Heights: slopes are stored as floats, and a step
-// between texels of 512 magnifies the rounding of a position. Noise: eight octaves of it. Combine: planar coordinates
-// lose their frame where the surface stands on their plane.
+// Bounds are about three times what was measured with PoCL 3.1 at 16 lanes. They are larger for heights, whose slopes
+// are stored as floats, and where 512 texels magnify the rounding of positions; for noise with eight octaves; and for
+// combine, whose planar coordinates have no frame where the surface is perpendicular to their plane.
 constexpr Bounds light{2e-7, 1e-5, 1e-4};
 INSTANTIATE_TEST_SUITE_P(
     Scenes, DataScene,

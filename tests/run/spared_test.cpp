@@ -1,4 +1,4 @@
-// What a scene does not need is not computed: skipping it changes nothing else.
+// What a scene does not need is not computed, and leaving it out changes nothing else.
 #include "tests/run/run_frame.h"
 
 namespace wrinkle::test {
@@ -21,7 +21,7 @@ Layer resolve_layer() {
 Layer noise_layer() {
     Layer layer;
     layer.name = "grain";
-    layer.bump = NoiseLayer{.frequency = 9, .octaves = 5};  // limited to what a pixel shows: it needs the derivatives
+    layer.bump = NoiseLayer{.frequency = 9, .octaves = 5};  // with a footprint, so that it needs the derivatives
     layer.scale = 0.02;
     return layer;
 }
@@ -46,7 +46,7 @@ TEST(Spared, NormalsThatNothingBendsKeepTheirBits) {
     expect_within("bent twice", normal_error(after, Truth(frame, some)), {3e-6, 1e-5, 3e-5}, "degrees");
 }
 
-/// A stage may be the first to need derivatives, the second in a row, or the next but one.
+/// Derivatives may be needed by the last stage only, by two stages in a row, or again after a stage that needs none.
 TEST(Spared, EveryStageHasTheDerivativesOfItsOwnSurface) {
     const HostFrame frame = small_frame();
     const Layer tilt = constant_on(1), other = constant_on(3), noise = noise_layer(), resolve = resolve_layer();
@@ -66,7 +66,8 @@ TEST(Spared, EveryStageHasTheDerivativesOfItsOwnSurface) {
     }
 }
 
-/// What a parallax moves and turns may share its lanes with pixels outside of its mask.
+/// Pixels that a parallax moves and turns may share a work-item with pixels outside of its mask, which must stay as
+/// they are.
 TEST(Spared, ParallaxLeavesOthersAsTheyAre) {
     const HostFrame frame = small_frame();
     Scene still = data_scene("parallax");
@@ -88,7 +89,7 @@ TEST(Spared, ParallaxLeavesOthersAsTheyAre) {
     EXPECT_GT(turned, 100u);
 }
 
-/// Texture coordinates are derived only where a mask lets a layer see them.
+/// Texture coordinates are differentiated only where a mask lets some layer use them.
 TEST(Spared, MasksDoNotChangeWhatTextureCoordinatesAre) {
     const HostFrame frame = small_frame();
     const Layer stones = data_scene("height_map").layers.at(1);
@@ -102,7 +103,7 @@ TEST(Spared, MasksDoNotChangeWhatTextureCoordinatesAre) {
         Scene scene = data_scene("height_map");
         scene.layers = {stones};
         scene.layers[0].mask = masks[k];
-        scene.output.marked = false;  // else, where there are none is written for every pixel
+        scene.output.marked = false;  // else every pixel needs them, to mark where there are none
         const Truth truth(frame, scene);
         const Pixels spared = evaluate_on(frame, scene);
         expect_within(fmt::format("mask {}", k), normal_error(spared, truth), {3e-6, 2e-4, 1e-3}, "degrees");

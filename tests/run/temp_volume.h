@@ -9,7 +9,7 @@
 
 namespace wrinkle::test {
 
-/// A volume in a file while it is tested.
+/// A volume in a file, which is deleted after the test.
 struct TempVolume {
     std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("wrinkle_volume_" + std::to_string(::getpid()) + ".vdb");

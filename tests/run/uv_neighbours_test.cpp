@@ -1,5 +1,5 @@
-// What neighbours make of texture coordinates that come without derivatives, where a surface curves away: on a ball,
-// whose longitude and latitude have derivatives in closed form.
+// How exact derivatives of texture coordinates are when they have to be found from neighbours, on a surface that curves
+// away: a ball, on which longitude and latitude have derivatives in closed form.
 #include <numbers>
 
 #include "tests/run/run_frame.h"
@@ -63,7 +63,8 @@ TEST(UvNeighbours, FollowASurfaceThatCurvesAway) {
         const V p =
             rays.at_depth(double(i % size.width) + 0.5, double(i / size.width) + 0.5, frame.pixels.at("depth")[i]);
         const double cosine = dot(n, normalize(p * -1.0));
-        if (found.at("marked")[i] != 0 || cosine > 0.95 || length(want) < 0.02) continue;  // not at the pole
+        // Near the pole longitude is undefined.
+        if (found.at("marked")[i] != 0 || cosine > 0.95 || length(want) < 0.02) continue;
         const double error = length(vec_at(found, "surface_gradient", i) - want) / length(want);
         (cosine < 0.35 ? rim : inner).push_back(error);
     }

@@ -1,4 +1,5 @@
-// The same scene by other ways: split kernels, bands of rows, other lane counts, double.
+// A scene gives the same when it is evaluated in other ways: by split kernels, in bands of rows, on other numbers of
+// lanes, in double.
 #include <algorithm>
 
 #include "tests/run/run_frame.h"
@@ -6,13 +7,14 @@
 namespace wrinkle::test {
 namespace {
 
-/// Every kind of layer, a bare UV plane and a second stage, small enough to compile often.
+/// A scene with every kind of layer, a bare UV plane and two stages, small enough to be compiled often.
 Scene mixed_scene() {
     Scene scene = data_scene("decals");
     const auto add = [&](const char* from, std::size_t layer) {
         scene.layers.push_back(data_scene(from).layers.at(layer));
     };
-    Layer depth = data_scene("height_map").layers.at(1);  // what follows on the wall lies deeper
+    // A parallax of this height moves the layers after it on the wall.
+    Layer depth = data_scene("height_map").layers.at(1);
     const auto& stones = std::get<HeightMapLayer>(depth.bump);
     depth.bump = ParallaxLayer{.texture = stones.texture, .uv = stones.uv, .curved = true};
     depth.name = "depth";
@@ -42,7 +44,7 @@ TEST(Variants, SplitKernelsGiveWhatTheFusedKernelGives) {
     const HostFrame frame = small_frame();
     const Scene scene = mixed_scene();
     const Pixels fused = evaluate_on(frame, scene), split = evaluate_on(frame, scene, {.split = true});
-    // Only how the compiler contracts a * b + c may differ; steep texels magnify it.
+    // Only the compiler's choice of what to contract to fma may differ. Steep texels magnify that.
     expect_within("split against fused", between(frame, split, fused), {1e-6, 1e-5, 1e-4}, "degrees");
     EXPECT_EQ(split.at("marked"), fused.at("marked"));
 }
@@ -59,7 +61,7 @@ TEST(Variants, LaneCountsAgreeToRounding) {
     }
 }
 
-/// Four surfaces on top of one another, each made by resolving the one below.
+/// Four stages, each of which bumps the surface that the one before has made.
 TEST(Variants, AnyNumberOfStagesAgreesWithTheReference) {
     const HostFrame frame = small_frame();
     Scene scene = data_scene("resolve");
@@ -86,7 +88,7 @@ TEST(Variants, AnyNumberOfStagesAgreesWithTheReference) {
 TEST(Variants, DoubleAgreesWithTheReference) {
     if (!device().info.fp64) GTEST_SKIP() << "needs double precision, which " << device().info.name << " lacks";
     const HostFrame frame = small_frame();
-    Scene noise = data_scene("noise");  // no texels: nothing but arithmetic
+    Scene noise = data_scene("noise");  // without textures, which are float in double runs, too
     noise.layers.push_back(data_scene("constant").layers.at(0));
     noise.lighting.relight = Relight::off;
     Pass exact = evaluate(device(), noise, frame.frame, {.fp64 = true});
@@ -97,7 +99,7 @@ TEST(Variants, DoubleAgreesWithTheReference) {
     const Truth truth(frame, scene);
     Pass pass = evaluate(device(), scene, frame.frame, {.fp64 = true});
     const auto got = run<double>(pass, frame);
-    // Slopes and mip levels are stored as floats, and are double in the reference.
+    // Here slopes and mips are stored as floats, while they are double in the reference.
     expect_within("double, texels in float", normal_error(got, truth), {1e-11, 1e-5, 1e-4}, "degrees");
     EXPECT_EQ(marked_differences(got, truth), 0u);
 

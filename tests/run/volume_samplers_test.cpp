@@ -1,4 +1,4 @@
-// What the kernels make of a grid is what OpenVDB's own samplers make of it.
+// Kernels sample a grid as OpenVDB's own samplers do.
 #include <openvdb/Grid.h>
 #include <openvdb/io/File.h>
 #include <openvdb/tools/Interpolation.h>
@@ -17,7 +17,7 @@ namespace {
 template <class T>
 using TreeOf = typename openvdb::tree::Tree4<T, 5, 4, 3>::Type;
 
-/// Random voxels from 1 to 2, in a box that crosses blocks and zero.
+/// A box of random voxels from 1 to 2. It spans several blocks, and indices on both sides of zero.
 DenseVolume random_box() {
     DenseVolume volume;
     volume.first = {-13, -3, -20}, volume.size = {40, 19, 30};

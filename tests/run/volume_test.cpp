@@ -47,7 +47,7 @@ TEST(GoldenFrame, LiesOnTheSurfaceWithItsNormals) {
     EXPECT_LT(hits, frame.count());
 }
 
-/// The screen derivatives of a plane through p: where the surface is flat enough, what neighbouring pixels find.
+/// Where the surface is flat enough, screen derivatives agree with differences of neighbouring pixels.
 TEST(GoldenFrame, ScreenDerivativesAreThoseOfTheSurface) {
     const HostFrame frame = golden_frame({640, 480});
     Pass pass = screen_derivatives(device(), frame.frame);
@@ -72,10 +72,10 @@ TEST(GoldenFrame, ScreenDerivativesAreThoseOfTheSurface) {
     expect_within("golden frame: dp_dx", Spread(exact), {6e-7, 1e-5, 5e-5}, "relative");
     const Spread found(neighbours);
     print("golden frame: dp_dx against neighbours", found, "relative");
-    EXPECT_LT(found.median, 0.01);  // the curvature's share
+    EXPECT_LT(found.median, 0.01);  // what curvature makes of the differences
 }
 
-/// A level set of the surface itself has its normal as gradient: it bumps nothing.
+/// The gradient of the surface's own level set is along its normal, so it bumps nothing.
 TEST(VolumeLayer, OfTheSurfaceItselfHasNoSurfaceGradient) {
     const HostFrame frame = golden_frame();
     const TempVolume file(bake_volume(device(), BakedVolume::golden, 128));
@@ -88,7 +88,7 @@ TEST(VolumeLayer, OfTheSurfaceItselfHasNoSurfaceGradient) {
         const Spread spread(degrees);
         print(filter == VolumeFilter::linear ? "level set, linear: turned" : "level set, smooth: turned", spread,
               "degrees");
-        EXPECT_LT(spread.median, filter == VolumeFilter::linear ? 3 : 0.3);  // of 128^3 voxels
+        EXPECT_LT(spread.median, filter == VolumeFilter::linear ? 3 : 0.3);  // degrees, with 128^3 voxels
     }
 }
 
@@ -99,7 +99,7 @@ TEST(VolumeLayer, OfVectorsIsTheGradient) {
     const Pixels got = evaluate_on(frame, scene_of({.file = file.file}, 0.1));
     std::vector<double> errors;
     for (std::size_t i = 0; i < frame.count(); ++i)
-        if (hit(frame, i))  // parallel to the normal: no surface gradient, but for the grid's coarseness
+        if (hit(frame, i))  // along the normal, but for the coarseness of the grid
             errors.push_back(length(vec_at(got, "surface_gradient", i)));
     expect_within("vector grid", Spread(errors), {6e-4, 2e-3, 3e-3}, "of 0.3 to 0.6");
 }

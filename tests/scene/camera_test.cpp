@@ -37,7 +37,7 @@ Vec3 along(const PinholeRays& rays, double x, double y, double z) {
     return out;
 }
 
-/// Largest entry of a * b - identity relative to the sum of magnitudes that makes it, computed in long double.
+/// The largest entry of a * b - identity, each relative to the sum of the magnitudes of its terms; in long double.
 long double residual(const Mat4& a, const Mat4& b) {
     long double worst = 0;
     for (int i = 0; i < 4; ++i)
@@ -167,7 +167,7 @@ TEST(Camera, NoRaysWithoutAnEye) {
     camera.proj = orthographic;
     EXPECT_FALSE(pinhole_rays(camera, size));
     camera.proj = perspective;
-    camera.proj[3] = {0, 0.1, -1, 0};  // depth along another axis than the view's
+    camera.proj[3] = {0, 0.1, -1, 0};  // w is no longer the depth along the viewing axis
     EXPECT_FALSE(pinhole_rays(camera, size));
     camera.proj = perspective;
     camera.proj[0][3] = 0.1;  // the eye is not the origin of view space
@@ -223,7 +223,7 @@ TEST(Matrix, InverseHasASmallResidual) {
 }
 
 TEST(Matrix, InverseOfExtremeCameras) {
-    // near 1e-6, far 1e9; and an eye 1e8 away: far from singular, however small some entries are.
+    // A near plane of 1e-6 and a far one of 1e9, then an eye 1e8 away: some entries are tiny, but nothing is singular.
     const double near_plane = 1e-6, far_plane = 1e9;
     const Mat4 proj{{{1, 0, 0, 0},
                      {0, 2, 0, 0},

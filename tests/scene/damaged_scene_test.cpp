@@ -8,7 +8,7 @@ namespace {
 
 using DamagedScene = SceneFolder;
 
-/// Either outcome is fine; anything but Error, and any crash, is not.
+/// Loads a damaged scene. It may load or throw Error; any other exception or a crash is a failure.
 void survives(const std::filesystem::path& file) {
     try {
         load_scene(file);

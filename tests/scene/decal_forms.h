@@ -4,7 +4,7 @@
 
 namespace wrinkle {
 
-/// What tests of every form of a table of decals have in common.
+/// What the tests of all forms of decal tables share.
 class DecalFolder : public SceneFolder {
 protected:
     std::vector<Projector> read(const std::string& name, const std::string& bytes) const {
@@ -24,7 +24,7 @@ protected:
     }
 };
 
-/// The two decals that each form writes in its own way.
+/// Expects the two decals that the test of each form writes in its own way.
 inline void expect_two_decals(const std::vector<Projector>& rows) {
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].center, (Vec3{1, 2.5, -0.3}));
@@ -47,7 +47,7 @@ inline void expect_two_decals(const std::vector<Projector>& rows) {
     EXPECT_FALSE(rows[1].two_sided);
 }
 
-/// A mistake in one decal at (1, 2, 3), as CSV and as TOML write it, and what both have to say of it.
+/// A mistake in a decal at (1, 2, 3), as CSV and as TOML write it, and what the message must contain.
 struct DecalMistake {
     const char *columns, *fields, *toml;
     std::vector<std::string> csv_parts, toml_parts, parts;

@@ -113,7 +113,7 @@ TEST_F(DecalRecords, OfOtherKindsAreToldHowToBeConverted) {
 }
 
 double seconds_to_load(const std::filesystem::path& file, std::size_t rows) {
-    double fastest = 1e9;  // of processor time: others may use the machine
+    double fastest = 1e9;  // processor time, since others may use the machine
     for (int i = 0; i < 3; ++i) {
         const std::clock_t start = std::clock();
         EXPECT_EQ(load_decals(file, 2).size(), rows);

@@ -1,4 +1,4 @@
-// Tables of decals in CSV: what they hold, and what is said of mistakes in them.
+// Tables of decals in CSV: reading them, and the messages about mistakes.
 #include <algorithm>
 
 #include "tests/scene/decal_forms.h"

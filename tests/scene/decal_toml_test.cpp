@@ -1,4 +1,4 @@
-// Tables of decals in TOML: what they hold, and what is said of mistakes in them.
+// Tables of decals in TOML: reading them, and the messages about mistakes.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -14,7 +14,7 @@ protected:
     void expect_refused(const std::string& text, const std::vector<std::string>& parts) const {
         DecalFolder::expect_refused("decals.toml", text, parts);
     }
-    /// What follows the centre of the second decal is refused, once and at its line.
+    /// Expects that `keys`, written behind the centre of the second decal, are refused, once and with their line.
     void expect_key_refused(const std::string& keys, const std::vector<std::string>& parts) const {
         const std::string text = before_ + keys + after_;
         const std::string message = refusal("decals.toml", text);
@@ -106,12 +106,12 @@ TEST_F(DecalToml, ReportsManyMistakesButNotAll) {
     EXPECT_NE(message.find("decals.toml:2000: [[decal]] 1000: and 980 more mistakes"), std::string::npos) << message;
 }
 
-/// A large table is parsed in pieces: nothing may show it.
+/// A large table is parsed in pieces, which must not show in anything.
 TEST_F(DecalToml, CountsDecalsAndLinesOfLargeTables) {
     constexpr int count = 20000;
     std::string text = "# large\n";
     for (int i = 0; i < count; ++i) text += "[[decal]]\r\ncenter = [" + std::to_string(i) + ", 0, 0]\r\n# x\n\n";
-    for (const char* first : {"", "# '''\n"}) {  // the second is not cut, as quotes might span lines
+    for (const char* first : {"", "# '''\n"}) {  // the second is parsed in one piece, as its quotes might span lines
         const auto rows = read(first + text);
         ASSERT_EQ(rows.size(), static_cast<std::size_t>(count));
         const std::uint32_t skipped = *first == '\0' ? 1 : 2;
@@ -121,7 +121,7 @@ TEST_F(DecalToml, CountsDecalsAndLinesOfLargeTables) {
         }
     }
     EXPECT_EQ(read(std::string(600'000, '#') + "\n" + text).size(), static_cast<std::size_t>(count));
-    std::string mistaken = text;  // in two of the pieces; each line is as long as before
+    std::string mistaken = text;  // with a mistake in each of two pieces; lines keep their lengths
     for (const int decal : {7000, 14000}) {
         const std::string good = "[" + std::to_string(decal) + ", 0, 0]";
         mistaken.replace(mistaken.find(good), good.size(), "[" + std::string(good.size() - 2, '1') + "]");

@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// Layers of scene files, good up to where `rest` goes on.
+/// Layers of scene files. Each is right, and a test appends `rest` to it.
 namespace wrinkle {
 
 inline std::string layer(const std::string& rest) { return "[[layer]]\n" + rest; }

@@ -39,13 +39,13 @@ protected:
         return folder_ / name;
     }
 
-    /// The scene `text`, in a file courtyard.toml.
+    /// Loads a scene from a file courtyard.toml with this text.
     Scene load(const std::string& text) const { return load_scene(write("courtyard.toml", text)); }
 
-    /// `text` after the four lines that every scene needs; its own first line is line 5.
+    /// Loads a scene of the four lines that every scene needs, followed by `text`, whose first line is line 5.
     Scene load_with(const std::string& text) const { return load(frame_ + text); }
 
-    /// The problems of a scene, one a line, without the folder before the scene's name.
+    /// The problems of a scene, a string for each, without the folder in front of the scene's name.
     std::vector<std::string> problems(const std::string& text) const {
         std::vector<std::string> out;
         try {
@@ -60,7 +60,7 @@ protected:
         return out;
     }
 
-    /// The scene has exactly one problem: at `line`, with all of `parts` in its message.
+    /// Expects that a scene has exactly one problem, at `line`, whose message contains all of `parts`.
     void expect_problem(const std::string& text, int line, const std::vector<std::string>& parts) const {
         const std::vector<std::string> found = problems(text);
         ASSERT_EQ(found.size(), 1u) << text << testing::PrintToString(found);
@@ -70,7 +70,7 @@ protected:
             EXPECT_NE(found[0].find(part), std::string::npos) << part << "\n" << found[0];
     }
 
-    /// The same for what follows the four lines.
+    /// The same for a text that follows the four lines.
     void expect_problem_with(const std::string& text, int line, const std::vector<std::string>& parts) const {
         expect_problem(frame_ + text, line, parts);
     }

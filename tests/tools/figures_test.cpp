@@ -1,4 +1,4 @@
-// Every figure of data/figures, drawn from the small frame; and what is wrong with a figure file, told.
+// Every figure of data/figures can be drawn, from the small frame; mistakes in figure files are told.
 #include "tools/draw_figure.h"
 
 #include <OpenImageIO/imageio.h>
@@ -44,7 +44,7 @@ class DataFigure : public testing::TestWithParam<std::string> {};
 TEST_P(DataFigure, ShowsPanelsThatDiffer) {
     Figure figure = load_figure(data_folder / "figures" / (GetParam() + ".toml"));
     ASSERT_GE(figure.panels.size(), 2u);
-    figure.columns = 0;  // one row: where the pixels below are
+    figure.columns = 0;  // all in one row, as the pixels below expect
     figure.scene.gbuffer.file = data_folder / "gbuffer/small.exr";
     figure.scene.camera.file = data_folder / "gbuffer/small.camera.json";
     const TempFolder folder;

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <string_view>
+
+#include "layers/common.h"
+#include "scene/files.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+
+namespace {
+
+constexpr double kKernel = 150;  // expected operations; nobody knows what the user wrote
+
+const KernelLayer& kernel_of(const Layer& layer) { return std::get<KernelLayer>(layer.bump); }
+
+constexpr const char* kNameRule =
+    "must be a name as C has them, that is no word of OpenCL C and does not begin with wr_ or WR_";
+
+/// Words of OpenCL C that a name of letters may clash with: the language would complain of text that nobody wrote.
+constexpr std::string_view kWords[] = {
+    "auto",  "bool",   "break",  "case",   "char",     "const",    "constant", "continue", "default",  "do",
+    "double", "else",  "enum",   "extern", "float",    "for",      "global",   "goto",     "half",     "if",
+    "inline", "int",   "kernel", "local",  "long",     "private",  "register", "restrict", "return",   "short",
+    "signed", "size_t", "sizeof", "static", "struct",  "switch",   "typedef",  "uchar",    "uint",     "ulong",
+    "union",  "unsigned", "ushort", "void", "volatile", "while"};
+
+bool is_name(const std::string& text) {
+    const auto letter = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
+           std::ranges::all_of(text, letter) && !text.starts_with("wr_") && !text.starts_with("WR_") &&
+           std::ranges::find(kWords, text) == std::end(kWords);
+}
+
+void read(scene::Table& table, Layer& layer) {
+    KernelLayer bump;
+    table.require("file");
+    table.read_file("file", bump.file);
+    table.require("function");
+    if (table.read("function", bump.function) && !is_name(bump.function))
+        table.complain("function", kNameRule);
+    if (auto parameters = table.table("parameters", "parameters of " + table.where())) {
+        for (const std::string& name : parameters->keys()) {
+            if (!is_name(name)) parameters->complain(name, kNameRule);
+            parameters->read(name, bump.parameters[name]);
+        }
+        parameters->finish();
+    }
+    table.choose("over", bump.over_uv, {{"space", false}, {"uv", true}});
+    if (auto uv = table.table("uv", "uv of " + table.where())) read_uv(*uv, bump.uv.emplace());
+    if (bump.over_uv && !bump.uv) bump.uv.emplace();
+    scene::read_project(table, layer);
+    scene::read_weight(table, layer);
+    layer.bump = bump;
+}
+
+/// Whether `name` stands in the text as a word that a parenthesis follows.
+bool defines(const std::string& text, const std::string& name) {
+    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        const std::size_t after = text.find_first_not_of(" \t\r\n", at + name.size());
+        if ((at == 0 || !letter(text[at - 1])) && after != std::string::npos && text[after] == '(') return true;
+    }
+    return false;
+}
+
+/// The user's file, once, with the structure of each function's parameters before it. A compiler's messages are told by
+/// the file's own name and lines.
+void add_source(LayerText& at, const KernelLayer& l) {
+    const std::string file = l.file.string();
+    const std::string text = scene::read_text(l.file);
+    if (!defines(text, l.function))
+        throw Error(fmt::format("{}: {} has no function \"{}\"; it must be: wr_fn wr_dual {}(wr_bump_point at, "
+                                "{}_parameters k)",
+                                at.who, file, l.function, l.function, l.function));
+    std::string members;
+    for (const auto& [name, value] : l.parameters) members += fmt::format("    WR_SCALAR {};\n", name);
+    if (members.empty()) members = "    WR_SCALAR none;\n";
+    const std::string type = fmt::format("typedef struct {{\n{}}} {}_parameters;\n", members, l.function);
+    if (at.emitter.user_parameters.try_emplace(l.function, type).first->second != type)
+        throw Error(fmt::format("{}: another layer gives \"{}\" other parameters; a function has one list of them",
+                                at.who, l.function));
+    at.emitter.user_files[file] = text;
+}
+
+std::string emit(LayerText& at) {
+    const KernelLayer& l = kernel_of(at.layer);
+    if (!is_name(l.function)) throw Error(fmt::format("{}: \"{}\" is no name of a function", at.who, l.function));
+    for (const auto& [name, value] : l.parameters)
+        if (!is_name(name)) throw Error(fmt::format("{}: \"{}\" is no name of a parameter", at.who, name));
+    if (l.over_uv && !l.uv) throw Error(at.who + ": a gradient along s and t needs a uv");
+    add_source(at, l);
+    at.section.reads.insert({"p", "n"});
+    if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
+    at.section.operations += kKernel;
+
+    std::string text, coordinates = "{(wr_real)(0), (wr_real)(0)}, {(wr_real)(0), (wr_real)(0)}, {(wr_real)(0), (wr_real)(0)}";
+    if (l.uv) {
+        text = emit_texcoord(at.emitter, at.layer, own_uv, Wrap::clamp, at.who, at.section);
+        if (l.uv->source == UvSource::aov) text += "        m = uv_valid ? m : (wr_real)(0);\n";
+        coordinates = "c.st, c.dx, c.dy";
+    }
+    std::string parameters;
+    for (const auto& [name, value] : l.parameters)
+        parameters += (parameters.empty() ? "" : ", ") +
+                      at.number("parameter " + name, [name = name](const Layer& layer) {
+                          return kernel_of(layer).parameters.at(name);
+                      });
+    text += fmt::format(
+        "        wr_bump_point point = {{wr_world_position(camera, p), n, {}, {}}};\n"
+        "        {}_parameters parameters = {{{}}};\n"
+        "        wr_dual f = {}(point, parameters);\n",
+        coordinates, at.layer.footprint ? "wr_footprint_size(dp_dx, dp_dy)" : "(wr_real)(0)", l.function,
+        parameters.empty() ? "0" : parameters, l.function);
+    if (!l.over_uv) return text + at.volume("f.gradient");
+    return text + "        wr_vec2 slope = wr_v2(f.gradient.x, f.gradient.y);\n" +
+           at.slopes("scale_dependent", "c.dx, c.dy, slope");
+}
+
+}  // namespace
+
+const LayerKind& layers::kernel() {
+    static constexpr LayerKind row{.name = KernelLayer::kind, .read = read, .emit = emit};
+    return row;
+}
+
+}  // namespace wrinkle
