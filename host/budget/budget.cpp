@@ -14,7 +14,7 @@ namespace {
 /// Degrees by which rounding a unit vector's components to 16-bit floats may turn it: each by 2^-12 at most.
 constexpr double kHalfRounding = 0.0243;
 
-/// A choice helps where it takes off at least this share of the largest error.
+/// A variant helps where it brings the largest error below this share of what it was.
 constexpr double kWorthIt = 0.9;
 
 double largest(const ErrorStats& stats) {

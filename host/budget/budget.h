@@ -18,10 +18,11 @@ struct BudgetReport {
     std::vector<std::string> misses;  ///< what missed the budget on the way, and what was done
 };
 
-/// Keeps a scene's error budget: chooses by the table, and raises what misses.
+/// Chooses how exactly a scene is computed, so that its error budget is kept: by the table of costs first, and more
+/// exactly where a measurement misses the budget.
 class Budget {
 public:
-    /// Throws Error where the outputs as such cannot hold the budget.
+    /// Throws Error where 16-bit outputs alone round off more than the budget allows.
     Budget(const Scene& scene, CameraKind camera, const DeviceCosts& costs);
 
     const PrecisionChoice& choice() const { return choice_; }
@@ -29,13 +30,14 @@ public:
     /// Whether a sample that was measured with choice() keeps the budget.
     bool accept(const ErrorStats& measured);
 
-    /// Finds out what missed: measures the choice with each thing in turn a rung higher, and takes the one that helps
-    /// most; everything in double where nothing does. Throws Error where that is what missed.
+    /// After a miss: measures the choice with the next variant of each part in turn, and takes the one that lowers the
+    /// largest error most, or everything in double where none lowers it by much. Throws Error where everything was in
+    /// double already.
     void raise(const ErrorStats& missed, const std::function<ErrorStats(const PrecisionChoice&)>& measure);
 
     const BudgetReport& report() const { return report_; }
 
-    /// What of the scene has variants.
+    /// The parts of the scene that have variants.
     const std::vector<Choosable>& choosables() const { return all_; }
 
 private:

@@ -10,7 +10,7 @@ namespace wrinkle {
 
 namespace {
 
-/// The rungs worth standing on: each more accurate than every cheaper one.
+/// Leaves out the variants that are no more accurate than a cheaper one.
 std::vector<Choosable::Rung> worthwhile(std::vector<Choosable::Rung> rungs) {
     std::ranges::stable_sort(rungs, {}, [](const Choosable::Rung& rung) { return rung.cost.ns; });
     std::vector<Choosable::Rung> kept;
@@ -36,14 +36,15 @@ Precision& precision_of(PrecisionChoice& choice, const Choosable& what) {
     return what.layer == Choosable::kGeometry ? choice.precision.geometry : choice.precision.layers[what.layer];
 }
 
-/// The rung that a choice stands on.
+/// Which variant of the ladder a choice takes.
 std::size_t rung_of(const Choosable& what, PrecisionChoice choice) {
     const Precision now = precision_of(choice, what);
     const auto found = std::ranges::find(what.ladder, now, &Choosable::Rung::precision);
     return static_cast<std::size_t>(found - what.ladder.begin());
 }
 
-void expect(PrecisionChoice& choice, const std::vector<Choosable>& all) {
+/// Has the choice say what the table expects of it.
+void sum_up(PrecisionChoice& choice, const std::vector<Choosable>& all) {
     choice.ns = choice.error = 0;
     for (const Choosable& what : all) {
         const VariantCost& cost = variant_in(choice, what).cost;
@@ -82,7 +83,7 @@ std::optional<PrecisionChoice> raised(const std::vector<Choosable>& all, const P
     if (from.fp64 || next >= what.ladder.size()) return std::nullopt;
     PrecisionChoice choice = from;
     precision_of(choice, what) = what.ladder[next].precision;
-    expect(choice, all);
+    sum_up(choice, all);
     return choice;
 }
 
@@ -90,7 +91,7 @@ PrecisionChoice choose_precision(const std::vector<Choosable>& all, std::size_t 
     PrecisionChoice choice;
     choice.precision.layers.assign(layers, Precision::standard);
     for (const Choosable& what : all) precision_of(choice, what) = what.ladder.front().precision;
-    expect(choice, all);
+    sum_up(choice, all);
     const PrecisionChoice last = all_in_double(all);
     while (choice.error > max_error) {
         std::optional<PrecisionChoice> best;

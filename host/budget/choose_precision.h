@@ -16,11 +16,12 @@ struct PrecisionChoice {
     bool operator==(const PrecisionChoice& other) const { return fp64 == other.fp64 && precision == other.precision; }
 };
 
-/// Something that has variants: the geometry, or a layer.
+/// A part of a scene that can be computed in more than one precision: the geometry, or a layer.
 struct Choosable {
     static constexpr std::size_t kGeometry = static_cast<std::size_t>(-1);
     std::size_t layer = kGeometry;
     std::string name;  ///< for messages
+    /// A variant, and what the table says of it.
     struct Rung {
         Precision precision;
         VariantCost cost;
@@ -30,19 +31,20 @@ struct Choosable {
     Rung in_double;
 };
 
-/// What of the scene has variants, with costs of all its units; variants that cost more than a more accurate one are
-/// left out. What was never measured costs and errs nothing: the sample shows what it does.
+/// The parts of the scene that have variants. Costs are those of the whole part: a unit's, times its units. Variants
+/// that cost more than a more accurate one are left out. A variant that the table does not know counts as free and
+/// exact; the sample that every run measures shows what it errs by.
 std::vector<Choosable> choosables(const Scene& scene, CameraKind camera, const DeviceCosts& costs);
 
-/// The cheapest choice whose errors sum up to no more than `max_error`, by raising, one after another, what gains most
-/// accuracy for its time; everything in double where nothing less will do or costs no less. A larger `max_error` never
-/// gives a costlier choice.
+/// Begins with the cheapest variant of every part. While the errors sum up to more than `max_error`, the part that
+/// loses most error for its extra time gets its next variant. Everything is computed in double where that is not
+/// enough, or where double costs no more. A larger `max_error` never gives a costlier choice.
 PrecisionChoice choose_precision(const std::vector<Choosable>& all, std::size_t layers, double max_error);
 
-/// The variant of a thing that a choice takes.
+/// The variant that a choice takes of a part.
 const Choosable::Rung& variant_in(const PrecisionChoice& choice, const Choosable& what);
 
-/// The same choice with one thing a rung higher; nothing where it is on its last.
+/// The same choice with the next variant of one part; nothing where it takes the last one already.
 std::optional<PrecisionChoice> raised(const std::vector<Choosable>& all, const PrecisionChoice& from,
                                       const Choosable& what);
 

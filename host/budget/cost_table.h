@@ -14,11 +14,11 @@ namespace wrinkle {
 
 /// What a variant of a layer was measured to cost and to err by.
 struct VariantCost {
-    double ns = 0;            ///< nanoseconds a pixel, of one unit (CostKind, scene/layer_kind.h)
+    double ns = 0;            ///< a pixel, for one of a layer's units (CostKind, scene/layer_kind.h)
     double p99 = 0, max = 0;  ///< degrees, against double
 };
 
-/// The kind of positions and screen derivatives.
+/// What the table files positions and screen derivatives under.
 inline const std::string kGeometryKind = "geometry";
 
 /// Measured costs and errors of one device.
@@ -43,7 +43,7 @@ std::filesystem::path user_costs_file();
 
 /// Tables of a file; none where there is no such file. Throws Error, naming the file, where it is damaged.
 std::vector<DeviceCosts> read_costs(const std::filesystem::path& file);
-/// Writes them, beside first.
+/// Writes them; the file is seen complete or not at all.
 void write_costs(const std::filesystem::path& file, const std::vector<DeviceCosts>& tables);
 
 }  // namespace wrinkle

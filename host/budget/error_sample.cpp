@@ -56,7 +56,7 @@ std::vector<Pass::Impl::Items> ErrorSample::choose(std::size_t items) {
     return runs;
 }
 
-void ErrorSample::add(const DevicePlanes& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) {
+void ErrorSample::add(const PlaneBuffers& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) {
     Pass::Impl& impl = reference_.impl();
     const auto lanes = static_cast<std::size_t>(impl.options.lanes);
     const std::size_t pixels = std::size_t{rows.count} * impl.size.width;
@@ -66,7 +66,7 @@ void ErrorSample::add(const DevicePlanes& inputs, const Rows& rows, PlaneBuffers
         truth_ = PlaneBuffers(impl.device, impl.plan.outputs, pixels, sizeof(double));
         truth_pixels_ = pixels;
     }
-    impl.enqueue(inputs, truth_.planes(), rows, {}, runs).wait();
+    impl.enqueue(inputs.planes(), truth_.planes(), rows, both_ready(inputs, truth_), runs).wait();
     impl.save();
     if (fp64)
         compare<double>(pixels, runs, outputs);

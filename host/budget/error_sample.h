@@ -27,7 +27,7 @@ public:
     void start(const Camera& camera, std::uint32_t band_rows) override;
 
     /// The next band: what a pass made of `inputs`. Blocks.
-    void add(const DevicePlanes& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) override;
+    void add(const PlaneBuffers& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) override;
 
     ErrorStats stats() const { return statistics(degrees_); }
 

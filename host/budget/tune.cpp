@@ -17,8 +17,8 @@ namespace wrinkle {
 
 namespace {
 
-/// Costs of a kind while layers of it are measured.
-struct Sum {
+/// What the layers of a kind that were measured so far cost on average, and err by at most.
+struct Measured {
     VariantCost cost;
     int layers = 0;
 
@@ -50,8 +50,8 @@ public:
 
     std::map<std::string, std::map<Precision, VariantCost>> kinds() const {
         std::map<std::string, std::map<Precision, VariantCost>> out;
-        for (const auto& [kind, variants] : sums_)
-            for (const auto& [precision, sum] : variants) out[kind][precision] = sum.cost;
+        for (const auto& [kind, variants] : measured_)
+            for (const auto& [precision, measured] : variants) out[kind][precision] = measured.cost;
         return out;
     }
 
@@ -96,7 +96,8 @@ private:
         add(kind, Precision::fp64, in_double - empty_in_double_, sample.stats());
     }
 
-    /// Its time by itself; its errors by what they add to those of all layers.
+    /// Its time is that of screen derivatives alone. Its error shows in normals only, so it is what the scene errs by
+    /// more than with the most exact geometry.
     void measure_geometry() {
         say("the geometry");
         Scene derivatives = with({});
@@ -121,7 +122,7 @@ private:
         if (stats.not_finite > 0)
             throw Error(fmt::format("{}: {} {} gave normals that are not finite", scene_.file.string(), kind.name,
                                     precision_name(precision)));
-        sums_[kind.name][precision].add({std::max(ns, 0.0) / kind.units, stats.p99, stats.max});
+        measured_[kind.name][precision].add({std::max(ns, 0.0) / kind.units, stats.p99, stats.max});
     }
 
     const Device& device_;
@@ -131,7 +132,7 @@ private:
     CameraKind kind_ = CameraKind::pinhole;
     std::optional<GBufferReader> reader_;
     double empty_ = 0, empty_in_double_ = 0;
-    std::map<std::string, std::map<Precision, Sum>> sums_;
+    std::map<std::string, std::map<Precision, Measured>> measured_;
 };
 
 }  // namespace

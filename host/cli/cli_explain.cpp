@@ -11,6 +11,7 @@
 #include "cli/frame_list.h"
 #include "cli/options.h"
 #include "device/kernel_sources.h"
+#include "device/program.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "layers/kinds.h"
@@ -29,6 +30,7 @@ namespace {
 struct ExplainArguments {
     std::filesystem::path scene;
     std::string device;
+    int lanes = 0;
     std::optional<int> frame;
     std::optional<double> max_error;
     bool full = false, no_source = false, json = false;
@@ -38,12 +40,6 @@ std::string join(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
     return text.empty() ? "-" : text;
-}
-
-/// How many decals the frame's tiles have in their lists. Nothing when the scene has no tables of decals.
-std::optional<BinReport> bins_of(const Scene& scene, const Frame& frame, const Plan& plan, int number) {
-    if (plan.tables.empty()) return std::nullopt;
-    return bin_report(scene, frame, number);
 }
 
 /// Warns of a camera that "wrinkle run" would refuse: it makes no difference to the plan.
@@ -104,20 +100,32 @@ void print_numbers(const Plan& plan, const NumberSource& source) {
     }
 }
 
-/// The scene's error budget, by the costs of the device that would evaluate it. Nothing when the scene has none.
-std::optional<Budget> budget_of(const Scene& scene, const Frame& frame, const std::string& device) {
-    if (!scene.budget.max_error) return std::nullopt;
-    return Budget(scene, camera_kind(frame.camera, frame.size), costs_of(Device::open(device).info));
-}
-
 PlanOptions options_of(const std::optional<Budget>& budget) {
     PlanOptions options;
     if (budget && !budget->choice().fp64) options.precision = budget->choice().precision;
     return options;
 }
 
-void print_json(const Plan& plan, double operations, const std::optional<BinReport>& bins,
-                const std::vector<VolumeReport>& volumes, const std::optional<Budget>& budget) {
+/// What a device is needed for; none is opened for the rest.
+struct OnDevice {
+    std::optional<Device> device;
+    std::optional<Budget> budget;   ///< the scene's, if it has one
+    std::optional<BinReport> bins;  ///< the lists of the frame's tiles, if the scene has tables of decals
+};
+
+std::string flags_of(const Device& device, const std::optional<Budget>& budget) {
+    const bool fp64 = budget && budget->choice().fp64;
+    return build_flags({fp64 ? std::min(device.info.lanes, 8) : device.info.lanes, fp64});
+}
+
+nlohmann::json device_json(const OnDevice& on) {
+    if (!on.device) return {};
+    const DeviceInfo& info = on.device->info;
+    return {{"name", info.name}, {"lanes", info.lanes}, {"flags", flags_of(*on.device, on.budget)}};
+}
+
+void print_json(const Plan& plan, double operations, const OnDevice& on, const std::vector<VolumeReport>& volumes) {
+    const auto& [device, budget, bins] = on;
     nlohmann::json lists;
     if (bins)
         lists = {{"rows", plan.projectors},     {"bytes", bins->bytes},     {"tiles", bins->tiles},
@@ -131,6 +139,7 @@ void print_json(const Plan& plan, double operations, const std::optional<BinRepo
                             {"operations_per_pixel", section.operations}});
     fmt::print("{}\n", nlohmann::json{{"inputs", plan.inputs},
                                       {"outputs", plan.outputs},
+                                      {"device", device_json(on)},
                                       {"bytes_per_pixel", plan.bytes},
                                       {"operations_per_pixel", operations},
                                       {"sections", sections},
@@ -144,20 +153,24 @@ void print_json(const Plan& plan, double operations, const std::optional<BinRepo
 void explain(const ExplainArguments& arguments) {
     Scene scene = load_scene(arguments.scene);
     if (arguments.max_error) scene.budget.max_error = arguments.max_error;
-    if (!arguments.device.empty() && !scene.budget.max_error)
-        throw Error("--device says whose table an error budget goes by; give --max-error, or max_error in the scene");
     check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     const Frame frame = describe_frame(scene, number);
     warn_of_camera(scene, number);
-    const std::optional<Budget> budget = budget_of(scene, frame, arguments.device);
-    const Plan plan = plan_for(scene, frame, options_of(budget));
+    OnDevice on;
+    const auto open = [&] {
+        if (!on.device) on.device = open_device(arguments.device, arguments.lanes);
+        return *on.device;
+    };
+    if (!arguments.device.empty() || arguments.lanes != 0) open();
+    if (scene.budget.max_error) on.budget.emplace(scene, camera_kind(frame.camera, frame.size), costs_of(open().info));
+    const Plan plan = plan_for(scene, frame, options_of(on.budget));
+    if (!plan.tables.empty()) on.bins = bin_report(open(), scene, frame, number);
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
-    const std::optional<BinReport> bins = bins_of(scene, frame, plan, number);
     const std::vector<VolumeReport> volumes = volumes_of(plan);
     if (arguments.json) {
-        print_json(plan, operations, bins, volumes, budget);
+        print_json(plan, operations, on, volumes);
         return;
     }
     fmt::print("{}: {} x {} pixels\n\n", scene.file.string(), frame.size.width, frame.size.height);
@@ -170,8 +183,11 @@ void explain(const ExplainArguments& arguments) {
                    join(section.planes));
     fmt::print("\nexpected per pixel, where nothing is skipped: {:.0f} bytes of planes, {:.0f} operations\n",
                plan.bytes, operations);
-    if (budget) print_choice(*budget);
-    if (bins) print_bins(plan, *bins);
+    if (on.device)
+        fmt::print("on {}, {} lanes: {}\n", on.device->info.name, on.device->info.lanes,
+                   flags_of(*on.device, on.budget));
+    if (on.budget) print_choice(*on.budget);
+    if (on.bins) print_bins(plan, *on.bins);
     print_volumes(volumes);
     print_numbers(plan, {scene, frame.cryptomatte});
     if (arguments.no_source) return;
@@ -188,6 +204,7 @@ void add_explain(CLI::App& app) {
     command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
     add_max_error_option(*command, arguments->max_error, "explains what a run under that budget starts with");
     add_device_option(*command, arguments->device);
+    add_lanes_option(*command, arguments->lanes);
     command->add_flag("--full", arguments->full, "print the source with every concept file in it");
     command->add_flag("--no-source", arguments->no_source, "print the plan only");
     command->add_flag("--json", arguments->json, "print as JSON");

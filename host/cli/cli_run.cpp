@@ -22,7 +22,7 @@ namespace {
 struct RunArguments {
     std::filesystem::path scene;
     std::string directory = "out", frames, device;
-    int threads = 0, repeat = 1;
+    int threads = 0, repeat = 1, lanes = 0;
     bool quiet = false, json = false;
     std::optional<double> max_error;
     std::optional<int> sample, seed;
@@ -125,6 +125,7 @@ void run(const RunArguments& arguments) {
     options.precision = arguments.precision.value_or(Precision::standard);
     options.directory = arguments.directory;
     options.device = arguments.device;
+    options.lanes = arguments.lanes;
     options.repeat = arguments.repeat;
     const auto files = frame_files(scene.gbuffer, scene.camera);
     check_frame_pattern(files, "--frames", !options.frames.empty());
@@ -156,6 +157,7 @@ void add_run(CLI::App& app) {
     command->add_option("--frames", arguments->frames, "frame numbers: 7, 1-10, 1-100x5, or several with commas")
         ->type_name("LIST");
     add_device_option(*command, arguments->device);
+    add_lanes_option(*command, arguments->lanes);
     command->add_option("--threads", arguments->threads, "threads for files and for CPU kernels; 0: all cores")
         ->check(CLI::Range(0, 1024));
     command->add_option("--repeat", arguments->repeat, "run the kernels N times and report the median, to time them")

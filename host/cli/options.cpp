@@ -2,11 +2,27 @@
 
 #include <limits>
 
+#include "cli/checks.h"
+
 namespace wrinkle::cli {
 
 void add_device_option(CLI::App& command, std::string& device) {
     command.add_option("--device", device, "number, type (cpu, gpu) or part of a name; see \"wrinkle devices\"")
         ->type_name("DEVICE");
+}
+
+void add_lanes_option(CLI::App& command, int& lanes) {
+    command
+        .add_option("--lanes", lanes,
+                    "pixels a work-item evaluates: 1, 4, 8 or 16; without it what the device is best at")
+        ->type_name("N")
+        ->check(one_of({"1", "4", "8", "16"}));
+}
+
+Device open_device(const std::string& device, int lanes) {
+    Device opened = Device::open(device);
+    if (lanes != 0) opened.info.lanes = lanes;
+    return opened;
 }
 
 void add_max_error_option(CLI::App& command, std::optional<double>& max_error, const std::string& what) {

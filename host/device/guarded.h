@@ -1,20 +1,20 @@
 #pragma once
 
-#include <fmt/format.h>
-
+#include "base/only_errors.h"
 #include "wrinkle/device.h"
-#include "wrinkle/error.h"
 
 namespace wrinkle {
 
-/// Does `work`; turns what OpenCL throws into an Error that says what was being done.
+/// only_errors() for work that calls OpenCL.
 template <class Work>
-auto guarded(const char* what, Work work) {
-    try {
-        return work();
-    } catch (const cl::Error& error) {
-        throw Error(fmt::format("{}: OpenCL reports {} ({})", what, error.what(), error.err()));
-    }
+decltype(auto) guarded(const char* what, Work work) {
+    return only_errors(what, [&]() -> decltype(auto) {
+        try {
+            return work();
+        } catch (const cl::Error& error) {
+            throw Error(fmt::format("{}: OpenCL reports {} ({})", what, error.what(), error.err()));
+        }
+    });
 }
 
 }  // namespace wrinkle

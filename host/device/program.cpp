@@ -9,10 +9,15 @@
 
 namespace wrinkle {
 
+std::string build_flags(const BuildOptions& options) {
+    if (const int n = options.lanes; n != 1 && n != 4 && n != 8 && n != 16)
+        throw Error(fmt::format("a work-item has 1, 4, 8 or 16 lanes, not {}", n));
+    return fmt::format("-cl-std=CL1.2 -D WR_LANES={}{}", options.lanes, options.fp64 ? " -D WR_FP64" : "");
+}
+
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options) {
     const std::string source = expand_includes(text, "evaluate.cl");
-    const std::string flags =
-        fmt::format("-cl-std=CL1.2 -D WR_LANES={}{}", options.lanes, options.fp64 ? " -D WR_FP64" : "");
+    const std::string flags = build_flags(options);
     BuiltProgram built;
     built.cache_file = cache_file(
         fmt::format("{}\n{}\n{}\n{}\n{}", flags, device.info.name, device.info.version, device.info.driver, source));

@@ -21,6 +21,9 @@ struct BuildOptions {
     bool fp64 = false;
 };
 
+/// The options that the compiler gets. Throws Error for numbers of lanes that kernels do not come in.
+std::string build_flags(const BuildOptions& options);
+
 /// Builds kernel text (with its #include lines) or takes it from the disk cache, whose key is a hash of the expanded
 /// source, the options, the device and its driver. A damaged cache entry is built anew.
 /// Throws Error with the compiler's log, file:line of the kernel file.

@@ -72,7 +72,9 @@ void ColumnProgram<T>::upload(const std::vector<std::vector<T>>& columns, std::s
 
 template <class T>
 void ColumnProgram<T>::enqueue() {
-    device_.queue.enqueueNDRangeKernel(kernel_, {}, stride_ / lanes_, kGroup);
+    cl::Event done;
+    device_.queue.enqueueNDRangeKernel(kernel_, {}, stride_ / lanes_, kGroup, &last_, &done);
+    last_ = {done};
 }
 
 template <class T>
@@ -80,7 +82,7 @@ std::vector<std::vector<T>> ColumnProgram<T>::read() {
     std::vector<std::vector<T>> results(outputs_, std::vector<T>(rows_));
     for (std::size_t k = 0; k < outputs_; ++k)
         device_.queue.enqueueReadBuffer(arguments_[1], CL_TRUE, k * stride_ * sizeof(T), rows_ * sizeof(T),
-                                        results[k].data());
+                                        results[k].data(), &last_);
     return results;
 }
 

@@ -43,6 +43,7 @@ public:
     /// Columns in the order of the names, `rows` numbers each.
     void upload(const std::vector<std::vector<T>>& columns, std::size_t rows, const std::vector<double>& constants,
                 const std::vector<double>& records);
+    /// After what was enqueued before, which writes the same results.
     void enqueue();
     /// One vector of `rows` numbers for each output, once all that was enqueued is done.
     std::vector<std::vector<T>> read();
@@ -57,6 +58,7 @@ private:
     cl::Buffer texels_, textures_;  // kernels do not hold on to their arguments
     std::vector<cl::Buffer> arguments_;
     cl::Kernel kernel_;
+    std::vector<cl::Event> last_;  ///< that was enqueued
 };
 
 /// One vector of numbers for each output; every column has as many rows. T is float or double, and so the kernel's.

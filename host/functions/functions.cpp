@@ -1,10 +1,11 @@
 #include "wrinkle/functions.h"
-#include "base/names.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "base/names.h"
+#include "device/guarded.h"
 #include "functions/tables.h"
 #include "wrinkle/error.h"
 
@@ -107,12 +108,12 @@ const Function& function(const std::string& name) {
 
 void evaluate_function(const Device& device, const Function& function, const Columns& in, const ColumnResults& out,
                        const FunctionOptions& options) {
-    evaluate<float>(device, function, in, out, options);
+    guarded("evaluate a function", [&] { evaluate<float>(device, function, in, out, options); });
 }
 
 void evaluate_function(const Device& device, const Function& function, const ColumnsInDouble& in,
                        const ColumnResultsInDouble& out, const FunctionOptions& options) {
-    evaluate<double>(device, function, in, out, options);
+    guarded("evaluate a function", [&] { evaluate<double>(device, function, in, out, options); });
 }
 
 }  // namespace wrinkle

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/only_errors.h"
 #include "scene/readers.h"
 
 namespace wrinkle {
@@ -35,8 +36,12 @@ LayerKinds layer_kinds() {
     return rows;
 }
 
-Scene load_scene(const std::filesystem::path& file) { return scene::load_scene(layer_kinds(), file); }
+Scene load_scene(const std::filesystem::path& file) {
+    return only_errors("load a scene", [&] { return scene::load_scene(layer_kinds(), file); });
+}
 
-Figure load_figure(const std::filesystem::path& file) { return scene::load_figure(layer_kinds(), file); }
+Figure load_figure(const std::filesystem::path& file) {
+    return only_errors("load a figure", [&] { return scene::load_figure(layer_kinds(), file); });
+}
 
 }  // namespace wrinkle

@@ -28,7 +28,7 @@ void launch(const Device& device, const cl::Kernel& kernel, std::size_t items, s
             std::vector<cl::Event>& wait) {
     cl::Event done;
     device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + group - 1) / group * group),
-                                      cl::NDRange(group), wait.empty() ? nullptr : &wait, &done);
+                                      cl::NDRange(group), &wait, &done);
     wait = {done};
 }
 
@@ -96,8 +96,7 @@ cl::Event DecalBins::enqueue(const cl::Buffer& frame, const cl::Buffer& numbers,
     after.insert(after.end(), last_use_.begin(), last_use_.end());
 
     cl::Event cleared;
-    device_.queue.enqueueFillBuffer(used_, cl_uint{decals_}, 0, sizeof(cl_uint), after.empty() ? nullptr : &after,
-                                    &cleared);
+    device_.queue.enqueueFillBuffer(used_, cl_uint{decals_}, 0, sizeof(cl_uint), &after, &cleared);
     after = {cleared};
     set(tiles_kernel_, 0, frame, numbers, axes_, tile_bounds_[0], tiles, cl_uint{supers_a_row_});
     cl_uint next = 6;
@@ -117,6 +116,7 @@ cl::Event DecalBins::enqueue(const cl::Buffer& frame, const cl::Buffer& numbers,
     launch(device_, lists_kernel_, supers_, group_, after);
     set(lists_kernel_, 7, tile_bounds_[0], blocks, lists_[1], lists_[0], hits_);
     launch(device_, lists_kernel_, blocks, group_, after);
+    made_ = after;
     return after.front();
 }
 
@@ -130,8 +130,9 @@ void DecalBins::set_arguments(cl::Kernel& kernel, cl_uint& next) const {
 BinReport DecalBins::read(std::uint32_t width, std::uint32_t rows,
                           std::vector<std::vector<std::uint32_t>>* lists) const {
     std::vector<cl_uint> words(std::size_t{supers_} * WR_TILES_OF_SUPER * WR_LIST_WORDS), entries(capacity_);
-    device_.queue.enqueueReadBuffer(lists_[0], CL_TRUE, 0, words.size() * sizeof(cl_uint), words.data());
-    if (lists) device_.queue.enqueueReadBuffer(entries_, CL_TRUE, 0, entries.size() * sizeof(cl_uint), entries.data());
+    device_.queue.enqueueReadBuffer(lists_[0], CL_TRUE, 0, words.size() * sizeof(cl_uint), words.data(), &made_);
+    if (lists)
+        device_.queue.enqueueReadBuffer(entries_, CL_TRUE, 0, entries.size() * sizeof(cl_uint), entries.data(), &made_);
     BinReport report;
     report.bytes = table_bytes_ + room_bytes_;
     for (std::uint32_t y = 0; y < (rows + WR_TILE_HEIGHT - 1) / WR_TILE_HEIGHT; ++y)

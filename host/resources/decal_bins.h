@@ -13,9 +13,10 @@ struct FrameConstants;
 
 /// What the bins of one band hold; read back for reports and tests.
 struct BinReport {
-    std::uint32_t tiles = 0, touched = 0;  ///< of the frame; with a list that is not empty
-    std::uint32_t inherited = 0;           ///< that took a parent's list, for want of room
-    std::uint64_t entries = 0;             ///< of all tiles' lists
+    std::uint32_t tiles = 0;      ///< that cover the rows
+    std::uint32_t touched = 0;    ///< tiles whose list is not empty
+    std::uint32_t inherited = 0;  ///< tiles that use the list of the block around them, as their own found no room
+    std::uint64_t entries = 0;    ///< of all tiles' lists
     std::uint32_t longest = 0;
     std::uint64_t bytes = 0;  ///< of tables, bounds and lists on the device
 };
@@ -41,11 +42,12 @@ public:
     /// The event after which the lists are free again.
     void used_until(const cl::Event& event) { last_use_ = {event}; }
 
-    /// Lists of the rows enqueued last; blocks. `lists` gets, tile by tile in rows, the device's row numbers.
+    /// The lists of the rows enqueued last, once they are made; blocks. `lists` gets the list of each tile, from left to
+    /// right and top to bottom: numbers of rows in the order of evaluation.
     BinReport read(std::uint32_t width, std::uint32_t rows,
                    std::vector<std::vector<std::uint32_t>>* lists = nullptr) const;
 
-    /// Entries that fit; 0: as many as the frame's tiles usually need. For tests.
+    /// Room for that many entries of lists; 0: for as many as frames usually need. For tests.
     void limit_entries(std::uint32_t entries) { limit_ = entries; }
 
 private:
@@ -59,7 +61,7 @@ private:
     cl::Buffer projectors_, boxes_, bounds_, groups_, axes_;
     std::array<cl::Buffer, 3> tile_bounds_, lists_;  ///< of tiles, blocks, super blocks
     cl::Buffer entries_, hits_, used_;
-    std::vector<cl::Event> last_use_;
+    std::vector<cl::Event> made_, last_use_;  ///< the lists; and what reads them
     std::uint64_t table_bytes_ = 0, room_bytes_ = 0;
     bool fp64_ = false;
 };

@@ -20,17 +20,17 @@ struct FrameConstants {
     std::vector<wr_light> lights;
 };
 
-/// The frame as kernels read it.
+/// A camera, and the frame that it fills, as kernels read them.
 wr_camera camera_constants(const Camera& camera, Size size);
 
-/// Sets the ..._low of a frame that is otherwise complete.
+/// Sets the members that end in _low: what a float leaves out of the member named without it.
 void split_constants(wr_camera& frame);
 
 /// A projector as kernels read it, without its masks; `scale` is signed.
 wr_projector projector_constants(const Projector& row, const ProjectedImage& image, double scale, const Vec3& eye);
 
-/// Everything of a plan, with the numbers of a scene of the planned structure. Throws Error, naming a number that is
-/// not finite.
+/// All of them for a plan; `source` has the scene that was planned, or one that differs from it in numbers only. Throws
+/// Error, naming a number that is not finite.
 FrameConstants frame_constants(const Plan& plan, const NumberSource& source, const Camera& camera, Size size);
 
 }  // namespace wrinkle

@@ -85,7 +85,7 @@ Image slopes_of_normals(const Image& image, bool y_down) {
     return slopes;
 }
 
-/// The t slopes change their sign.
+/// Slopes of a map whose green channel points down: those along t change their sign.
 Image turned_down(Image slopes) {
     for (std::size_t i = 1; i < slopes.texels.size(); i += 2) slopes.texels[i] = -slopes.texels[i];
     return slopes;
@@ -101,7 +101,7 @@ void append(TextureHeap& heap, const Image& level, Wrap wrap) {
         }
 }
 
-/// The finest level as it is filtered.
+/// The finest level, of which the coarser ones are means.
 Image finest_level(const Image& image, const TextureUse& use) {
     if (use.content == Content::normal) return slopes_of_normals(image, use.y_down);
     return use.content == Content::slope && use.y_down ? turned_down(image) : image;

@@ -18,8 +18,8 @@ public:
     /// A frame begins, in bands of `band_rows` rows, the last one shorter.
     virtual void start(const Camera& camera, std::uint32_t band_rows) = 0;
 
-    /// The next band: what a pass made of `inputs`; doubles if `fp64`. Blocks.
-    virtual void add(const DevicePlanes& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) = 0;
+    /// The next band: what a pass, which is done, made of `inputs`; doubles if `fp64`. Blocks.
+    virtual void add(const PlaneBuffers& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) = 0;
 };
 
 }  // namespace wrinkle

@@ -9,9 +9,8 @@
 
 namespace wrinkle {
 
-BinReport bin_report(const Scene& scene, const Frame& frame, int number) {
+BinReport bin_report(const Device& device, const Scene& scene, const Frame& frame, int number) {
     return guarded("bin decals", [&] {
-        const Device device = Device::open();
         Pass pass = evaluate(device, scene, frame);
         Pass::Impl& impl = pass.impl();
         if (!impl.plan.tiles) return BinReport{};
@@ -28,7 +27,7 @@ BinReport bin_report(const Scene& scene, const Frame& frame, int number) {
         planes.unmap();
         impl.bins
             .enqueue(impl.frame, impl.numbers, buffers, {.first = 0, .count = size.height}, size.width, 0,
-                     size.width * size.height, {})
+                     size.width * size.height, planes.ready())
             .wait();
         return impl.bins.read(size.width, size.height);
     });

@@ -48,9 +48,10 @@ Condition::Condition(const Device& device, const Scene& scene, const Frame& fram
           return wrinkle::evaluate(device, normals_only(scene), frame, {.fp64 = true});
       }()) {}
 
-std::array<std::vector<double>, 3> Condition::normals(const DevicePlanes& inputs, const Rows& rows,
-                                                      std::size_t pixels) {
-    pass_.impl().enqueue(inputs, outputs_.planes(), rows, {}).wait();
+std::array<std::vector<double>, 3> Condition::normals(const DevicePlanes& inputs, std::vector<cl::Event> wait,
+                                                      const Rows& rows, std::size_t pixels) {
+    wait.insert(wait.end(), outputs_.ready().begin(), outputs_.ready().end());
+    pass_.impl().enqueue(inputs, outputs_.planes(), rows, wait).wait();
     std::array<std::vector<double>, 3> out;
     for (std::size_t k = 0; k < 3; ++k) {
         const double* plane = outputs_.map<double>(fmt::format("normal.{}", "xyz"[k]), CL_MAP_READ);
@@ -69,7 +70,7 @@ std::vector<float> Condition::evaluate(PlaneBuffers& inputs, const Rows& rows) {
         outputs_ = PlaneBuffers(impl.device, impl.plan.outputs, read, sizeof(double));
         room_ = read;
     }
-    const auto base = normals(inputs.planes(), rows, pixels);
+    const auto base = normals(inputs.planes(), inputs.ready(), rows, pixels);
     std::vector<bool> valid(pixels);
     const double* marked = outputs_.map<double>("marked", CL_MAP_READ);
     for (std::size_t i = 0; i < pixels; ++i) valid[i] = (static_cast<int>(marked[i]) & 1) == 0;
@@ -89,7 +90,7 @@ std::vector<float> Condition::evaluate(PlaneBuffers& inputs, const Rows& rows) {
         inputs.unmap();
         DevicePlanes planes = inputs.planes();
         planes[name] = moved_.planes().at("moved");
-        const auto other = normals(planes, rows, pixels);
+        const auto other = normals(planes, both_ready(inputs, moved_), rows, pixels);
         for (std::size_t i = 0; i < pixels; ++i)
             if (valid[i])
                 degrees[i] +=

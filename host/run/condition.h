@@ -27,7 +27,9 @@ public:
     std::vector<float> evaluate(PlaneBuffers& inputs, const Rows& rows);
 
 private:
-    std::array<std::vector<double>, 3> normals(const DevicePlanes& inputs, const Rows& rows, std::size_t pixels);
+    /// Of `inputs` once the events of `wait` are there.
+    std::array<std::vector<double>, 3> normals(const DevicePlanes& inputs, std::vector<cl::Event> wait,
+                                               const Rows& rows, std::size_t pixels);
 
     Pass pass_;
     std::size_t room_ = 0;

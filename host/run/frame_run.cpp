@@ -87,13 +87,17 @@ void FrameRun::read(Slot& slot) {
     slot.inputs.unmap();
 }
 
+cl::Event FrameRun::enqueue(const Slot& slot, const Rows& rows) {
+    return pass_.enqueue(slot.inputs.planes(), slot.outputs.planes(), rows, both_ready(slot.inputs, slot.outputs));
+}
+
 void FrameRun::evaluate(Slot& slot) {
     if (!pass_.warm) {  // drivers finish compiling at the first call: one row, counted as building
         clock_.measure(PhaseClock::build, [&] {
             Rows row = slot.rows;
             row.after += row.count - 1;
             row.count = 1;
-            pass_.enqueue(slot.inputs.planes(), slot.outputs.planes(), row, {}).wait();
+            enqueue(slot, row).wait();
         });
         pass_.warm = true;
     }
@@ -101,7 +105,7 @@ void FrameRun::evaluate(Slot& slot) {
         std::vector<double> times;
         for (int i = 0; i < std::max(repeat_, 1); ++i) {
             const auto start = PhaseClock::Clock::now();
-            pass_.enqueue(slot.inputs.planes(), slot.outputs.planes(), slot.rows, {}).wait();
+            enqueue(slot, slot.rows).wait();
             times.push_back(std::chrono::duration<double>(PhaseClock::Clock::now() - start).count());
         }
         std::ranges::nth_element(times, times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2));
@@ -110,8 +114,7 @@ void FrameRun::evaluate(Slot& slot) {
     if (condition_ != nullptr)
         clock_.measure(PhaseClock::check, [&] { slot.condition = condition_->evaluate(slot.inputs, slot.rows); });
     if (check_ == nullptr) return;
-    clock_.measure(PhaseClock::check,
-                   [&] { check_->add(slot.inputs.planes(), slot.rows, slot.outputs, pass_.options.fp64); });
+    clock_.measure(PhaseClock::check, [&] { check_->add(slot.inputs, slot.rows, slot.outputs, pass_.options.fp64); });
 }
 
 void FrameRun::write(Slot& slot) {

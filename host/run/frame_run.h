@@ -19,11 +19,11 @@ public:
         : pass_(pass), reader_(reader), clock_(clock) {}
 
     void write_to(FrameOutputs& outputs) { outputs_ = &outputs; }
-    /// Has bands checked before they are written; the check was not started.
+    /// Starts the check, and shows it every band before that is written.
     void check_bands(BandCheck& check, const Camera& camera);
     /// Writes the condition of every pixel too.
     void add_condition(Condition& condition) { condition_ = &condition; }
-    /// Shows it all pixels, once the frame has begun there.
+    /// Shows every pixel to `matches`, which has begun this frame.
     void match_masks(MaskMatches& matches) { matches_ = &matches; }
     /// Enqueues the kernels this often, to time them.
     void repeat(int times) { repeat_ = times; }
@@ -32,7 +32,7 @@ public:
     double run(const std::function<void(double)>& progress = {});
 
 private:
-    /// Planes of a band in memory that both sides reach, and where they lie.
+    /// A band's planes, in memory that host and device both reach, and the rows that they are of.
     struct Slot {
         PlaneBuffers inputs, outputs;
         Rows rows;
@@ -41,6 +41,7 @@ private:
     };
 
     void read(Slot& slot);
+    cl::Event enqueue(const Slot& slot, const Rows& rows);
     void evaluate(Slot& slot);
     void write(Slot& slot);
 

@@ -13,12 +13,12 @@ namespace wrinkle {
 /// Finds out, while the planes of frames are read, which objects that masks and decals name no pixel shows.
 class MaskMatches {
 public:
-    /// Takes what the scene's masks and tables of decals name. An inverted mask may well match nothing.
+    /// Takes what the scene's masks and tables of decals name, but inverted masks, which may well match nothing.
     explicit MaskMatches(const Scene& scene);
 
     /// The frame whose rows come next; its Cryptomatte has a hash for every name of the scene.
     void begin(const Frame& frame);
-    /// Pixels as they were read: planes by name, of which object and crypto.* count.
+    /// Pixels as they were read; of the planes, only object and crypto.* are looked at.
     void see(const std::map<std::string, const float*>& planes, std::size_t pixels);
     /// A line for each layer that names objects which no pixel of any frame showed, with what the frames show.
     std::vector<std::string> warnings() const;
@@ -33,7 +33,7 @@ private:
     };
     /// Labels of pixels by their bits: object indices, or ids of Cryptomatte.
     struct Labels {
-        std::unordered_map<std::uint32_t, std::vector<std::size_t>> unseen{};  ///< which of wanted_ each is
+        std::unordered_map<std::uint32_t, std::vector<std::size_t>> unseen{};  ///< indices into wanted_, by label
         std::vector<std::uint32_t> shown{};                                    ///< the first ones of the frames
         bool more = false;                                                     ///< than those
     };

@@ -7,6 +7,7 @@
 #include "layers/kinds.h"
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
+#include "run/shared_memory.h"
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
 
@@ -36,6 +37,7 @@ void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::strin
     check(out, impl.plan.outputs, width * height, "output");
     if (sizeof(T) != impl.bytes_per_output())
         throw Error("outputs are double if and only if the pass is built with fp64");
+    refuse_shared_memory(in, impl.plan.inputs, out, impl.plan.outputs);
 
     const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width, 1, height);
     const std::size_t halo = impl.plan.neighbours ? 1 : 0;
@@ -51,7 +53,8 @@ void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::strin
         impl.enqueue(inputs.planes(), outputs.planes(),
                      {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
                       static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(after)},
-                     {});
+                     both_ready(inputs, outputs))
+            .wait();
         for (const std::string& name : impl.plan.outputs)
             std::memcpy(out.at(name).data() + first * width, outputs.map<T>(name, CL_MAP_READ),
                         count * width * sizeof(T));
@@ -95,13 +98,16 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const s
 
 cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                         const std::vector<cl::Event>& wait) {
-    const std::uint64_t end = std::uint64_t{rows.first} + rows.count, height = impl_->size.height;
-    if (end > height || rows.count == 0)
-        throw Error(fmt::format("rows {} to {} are not within the frame's {}", rows.first, end, height));
-    if (impl_->plan.neighbours && ((rows.first > 0 && rows.before == 0) || (end < height && rows.after == 0)))
-        throw Error(fmt::format("rows {} to {} need a row before and after them, as the pass reads neighbours",
-                                rows.first, end));
-    return guarded("enqueue a pass", [&] { return impl_->enqueue(in, out, rows, wait); });
+    return guarded("enqueue a pass", [&] {
+        const std::uint64_t end = std::uint64_t{rows.first} + rows.count, height = impl_->size.height;
+        if (end > height || rows.count == 0)
+            throw Error(fmt::format("rows {} to {} are not within the frame's {}", rows.first, end, height));
+        if (impl_->plan.neighbours && ((rows.first > 0 && rows.before == 0) || (end < height && rows.after == 0)))
+            throw Error(fmt::format("rows {} to {} need a row before and after them, as the pass reads neighbours",
+                                    rows.first, end));
+        refuse_shared_memory(in, impl_->plan.inputs, out, impl_->plan.outputs);
+        return impl_->enqueue(in, out, rows, wait);
+    });
 }
 
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options) {
@@ -111,18 +117,20 @@ Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, cons
 
 Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
                        const PassOptions& options) {
-    Scene scene;
-    scene.layers.assign(decals.begin(), decals.end());
-    for (const Layer& layer : scene.layers)
-        if (!kind_of(layer_kinds(), layer).without_normal)
-            throw Error(fmt::format("layer \"{}\" is no decal", layer.name));
-    return make_pass("accumulate decals", device, scene, frame, options,
-                     {.split = options.split,
-                      .normal = false,
-                      .write_normal = false,
-                      .volume_gradient = true,
-                      .view_footprint = true,
-                      .precision = options.precision});
+    return guarded("accumulate decals", [&] {
+        Scene scene;
+        scene.layers.assign(decals.begin(), decals.end());
+        for (const Layer& layer : scene.layers)
+            if (!kind_of(layer_kinds(), layer).without_normal)
+                throw Error(fmt::format("layer \"{}\" is no decal", layer.name));
+        return make_pass("accumulate decals", device, scene, frame, options,
+                         {.split = options.split,
+                          .normal = false,
+                          .write_normal = false,
+                          .volume_gradient = true,
+                          .view_footprint = true,
+                          .precision = options.precision});
+    });
 }
 
 Pass screen_derivatives(const Device& device, const Frame& frame, const PassOptions& options) {

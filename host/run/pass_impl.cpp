@@ -157,11 +157,12 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     if (in_pixels > std::numeric_limits<cl_uint>::max()) throw Error("a band holds more than 2^32 pixels");
     const std::size_t in_bytes = std::max(in_pixels, before + touched) * sizeof(float);
     std::vector<cl::Event> after = wait;
+    after.insert(after.end(), scratch_use.begin(), scratch_use.end());
     if (plan.tiles) {
         std::vector<cl::Buffer> planes;
         for (const std::string& name : plan.tiles->inputs) planes.push_back(plane(in, name, in_bytes));
         after = {bins.enqueue(frame, numbers, planes, rows, size.width, static_cast<cl_uint>(before),
-                              static_cast<cl_uint>(in_pixels), wait)};
+                              static_cast<cl_uint>(in_pixels), after)};
     }
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         cl::Kernel& kernel = kernels[k];
@@ -185,15 +186,14 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         kernel.setArg(i++, static_cast<cl_uint>(size.width));
         kernel.setArg(i++, static_cast<cl_uint>(items));
         if (plan.blocks) kernel.setArg(i++, blocks ? static_cast<cl_uint>(rows.count) : cl_uint{0});
-        const std::vector<cl::Event>* before_it = after.empty() ? nullptr : &after;
         std::vector<cl::Event> done(std::max<std::size_t>(some.size(), 1));
         const std::size_t group = group_size(plan.kernels[k], options.lanes);
         if (some.empty())
             device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups_of(items, group) * group),
-                                              cl::NDRange(group), before_it, done.data());
+                                              cl::NDRange(group), &after, done.data());
         for (std::size_t run = 0; run < some.size(); ++run)
             device.queue.enqueueNDRangeKernel(kernel, cl::NDRange(some[run].first), cl::NDRange(some[run].count),
-                                              cl::NDRange(1), before_it, &done[run]);
+                                              cl::NDRange(1), &after, &done[run]);
         after.resize(1);
         if (done.size() == 1)
             after.front() = done.front();
@@ -201,6 +201,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
             device.queue.enqueueMarkerWithWaitList(&done, &after.front());
     }
     if (plan.tiles) bins.used_until(after.front());
+    if (!scratch.empty()) scratch_use = {after.front()};
     return after.front();
 }
 

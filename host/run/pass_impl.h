@@ -10,7 +10,7 @@
 namespace wrinkle {
 
 /// A built plan and what its kernels read besides planes.
-struct Pass::Impl {
+struct [[gnu::visibility("hidden")]] Pass::Impl {
     Device device;
     Scene scene;  ///< the numbers are taken from it
     std::map<std::string, std::uint32_t> cryptomatte;
@@ -25,6 +25,7 @@ struct Pass::Impl {
     DecalBins bins;                   ///< of the plan's tables of decals, if it has any
     std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
     std::vector<std::string> scratch_names;
+    std::vector<cl::Event> scratch_use;  ///< the evaluation that scratch belongs to until it is done
     double texture_seconds = 0, build_seconds = 0;
     bool saved = false;
     bool warm = false;  ///< the kernels ran before

@@ -9,7 +9,8 @@
 namespace wrinkle {
 
 /// Buffers for named planes in memory that host and device both reach: mapping them costs nothing on a CPU device and
-/// is the fast way to copy on a GPU.
+/// is the fast way to copy on a GPU. The queue may be out of order: who enqueues commands that use the planes has them
+/// wait for ready(), and who maps has waited for those commands.
 class PlaneBuffers {
 public:
     PlaneBuffers() = default;
@@ -33,24 +34,39 @@ public:
 
     const DevicePlanes& planes() const { return planes_; }
 
-    /// The plane's memory, once all that was enqueued before is done; until unmap().
+    /// The plane's memory, until unmap(). Blocks.
     template <class T>
     T* map(const std::string& name, cl_map_flags access) {
-        void* memory = queue_.enqueueMapBuffer(planes_.at(name), CL_TRUE, access, 0, bytes_);
+        void* memory = queue_.enqueueMapBuffer(planes_.at(name), CL_TRUE, access, 0, bytes_, &ready_);
         mapped_[name] = memory;
         return static_cast<T*>(memory);
     }
 
+    /// Gives all mapped planes back to the device; does not wait until it has them.
     void unmap() {
-        for (const auto& [name, memory] : mapped_) queue_.enqueueUnmapMemObject(planes_.at(name), memory);
+        if (mapped_.empty()) return;
+        ready_.clear();
+        for (const auto& [name, memory] : mapped_)
+            queue_.enqueueUnmapMemObject(planes_.at(name), memory, nullptr, &ready_.emplace_back());
         mapped_.clear();
     }
+
+    /// The events after which the device has what was written to the planes.
+    const std::vector<cl::Event>& ready() const { return ready_; }
 
 private:
     cl::CommandQueue queue_;
     std::size_t bytes_ = 0;
     DevicePlanes planes_;
     std::map<std::string, void*> mapped_;
+    std::vector<cl::Event> ready_;
 };
+
+/// What commands that use the planes of both wait for.
+inline std::vector<cl::Event> both_ready(const PlaneBuffers& a, const PlaneBuffers& b) {
+    std::vector<cl::Event> events = a.ready();
+    events.insert(events.end(), b.ready().begin(), b.ready().end());
+    return events;
+}
 
 }  // namespace wrinkle

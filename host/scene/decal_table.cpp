@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.h"
+#include "base/only_errors.h"
 #include "base/text_file.h"
 #include "io/csv_rows.h"
 #include "io/csv_table.h"
@@ -79,23 +80,27 @@ std::string csv_text(std::span<const DecalColumn* const> columns, const std::vec
 }  // namespace scene
 
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures) {
-    if (scene::is_toml(file)) return scene::load_decal_toml(file, textures);
-    return io::NpyRecords::is(file) ? scene::load_npy(file, textures) : scene::load_csv(file, textures);
+    return only_errors("load a table of decals", [&] {
+        if (scene::is_toml(file)) return scene::load_decal_toml(file, textures);
+        return io::NpyRecords::is(file) ? scene::load_npy(file, textures) : scene::load_csv(file, textures);
+    });
 }
 
 void save_decals(const std::filesystem::path& file, const std::vector<Projector>& rows) {
-    using namespace scene;
-    // Columns that every row leaves at its default are left out.
-    std::vector<const DecalColumn*> used;
-    const Projector standard;
-    for (const DecalColumn& column : decal_columns()) {
-        const bool differs = std::ranges::any_of(
-            rows, [&, usual = column.write(standard)](const Projector& row) { return column.write(row) != usual; });
-        if (differs || &column < decal_columns().data() + kRequiredColumns) used.push_back(&column);
-    }
-    AtomicFile out(file);
-    out.write(is_toml(file) ? decal_toml(used, rows) : csv_text(used, rows));
-    out.commit();
+    only_errors("save a table of decals", [&] {
+        using namespace scene;
+        // Columns that every row leaves at its default are left out.
+        std::vector<const DecalColumn*> used;
+        const Projector standard;
+        for (const DecalColumn& column : decal_columns()) {
+            const bool differs = std::ranges::any_of(
+                rows, [&, usual = column.write(standard)](const Projector& row) { return column.write(row) != usual; });
+            if (differs || &column < decal_columns().data() + kRequiredColumns) used.push_back(&column);
+        }
+        AtomicFile out(file);
+        out.write(is_toml(file) ? decal_toml(used, rows) : csv_text(used, rows));
+        out.commit();
+    });
 }
 
 }  // namespace wrinkle

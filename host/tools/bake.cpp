@@ -12,7 +12,8 @@ namespace wrinkle {
 namespace {
 
 constexpr double kGoldenRadius = 5.3, kMarchRadius = 5.2;
-/// Largest |gradient| of the golden-ratio function: its value over this is a distance nobody is nearer than.
+/// Largest |gradient| of the golden-ratio function. Its value divided by this is no more than the distance to the
+/// surface.
 constexpr double kGoldenLipschitz = 6.2;
 
 using Column = std::vector<double>;
@@ -76,7 +77,8 @@ DenseVolume bake_noise(const Device& device, int size) {
     return volume;
 }
 
-/// Nearest points of the surface: along the gradient onto it, then along it towards where the search began.
+/// The points of the surface that are nearest to those given: each step goes along the gradient to where the surface
+/// would be if the function were linear, and within that plane to the point nearest to the given one.
 Field nearest(const Device& device, const Field& from) {
     Field to = from;
     for (int step = 0; step < 12; ++step) {

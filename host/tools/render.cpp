@@ -65,7 +65,8 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     RenderReport report;
     PhaseClock clock;
     const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
-    const Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
+    Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
+    if (options.lanes != 0) device.info.lanes = options.lanes;
     Passes passes(device, scene, clock, report);
     std::optional<KeptBudget> kept;
     std::optional<Condition> condition;

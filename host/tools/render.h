@@ -13,8 +13,9 @@ namespace wrinkle {
 
 struct RenderOptions {
     std::filesystem::path directory = "out";
-    std::vector<int> frames;  ///< empty: the scene's file as it is
-    std::string device;
+    std::vector<int> frames;                    ///< empty: the scene's file as it is
+    std::string device;                         ///< as Device::open takes it
+    int lanes = 0;                              ///< pixels a work-item: 1, 4, 8 or 16; 0: the device's choice
     int repeat = 1;                             ///< enqueue the kernels this often, to time them
     Precision precision = Precision::standard;  ///< of everything, where the scene has no error budget
     /// Called with the share of the work done, [0,1].

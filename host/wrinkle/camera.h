@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace wrinkle {
+namespace [[gnu::visibility("default")]] wrinkle {
 
 using Vec3 = std::array<double, 3>;
 using Mat4 = std::array<std::array<double, 4>, 4>;  ///< rows; acts on column vectors
@@ -19,6 +19,8 @@ struct Size {
 ///
 ///     const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 16.0 / 9);
 ///     const auto pixel = wrinkle::project(camera, {1920, 1080}, {0, 0, 0});  // the middle: 960, 540
+///
+/// Threads: a value, used as any other; the functions below keep nothing between calls.
 struct Camera {
     Mat4 view{};  ///< world to camera, rigid
     Mat4 proj{};  ///< camera to clip; perspective, orthographic or oblique
@@ -44,4 +46,4 @@ std::optional<PinholeRays> pinhole_rays(const Camera& camera, Size size);
 /// World point to pixel coordinates (x right, y down); nothing for points at or behind the eye.
 std::optional<std::array<double, 2>> project(const Camera& camera, Size size, Vec3 point);
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

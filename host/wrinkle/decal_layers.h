@@ -18,7 +18,10 @@
 ///     wrinkle::DecalsLayer seals;
 ///     seals.textures = {{.file = "seal.png", .wrap = wrinkle::Wrap::clamp}};
 ///     seals.rows = std::make_shared<const std::vector<wrinkle::Projector>>(wrinkle::load_decals("three.csv", 1));
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one. Tables may be loaded by
+/// several at once, and saved to different files.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 /// [Mik20 4.5, figure 6] The surface's own normal is bumped; or the projector's axis is, and the two normals are mixed,
 /// as engines do, to compare with.
@@ -84,4 +87,4 @@ std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_
 /// Writes one that load_decals reads back to the same numbers: TOML if it is named .toml, else CSV.
 void save_decals(const std::filesystem::path& file, const std::vector<Projector>& rows);
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

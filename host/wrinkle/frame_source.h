@@ -12,7 +12,9 @@
 ///     scene.gbuffer.file = "shot.####.exr";
 ///     scene.gbuffer.roles["uv"] = "UVMap";
 ///     scene.camera.look_at = {.eye = {0, -5, 2}, .target = {0, 0, 0}, .fov_y = 0.9};
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 enum class Geometry { automatic, depth, position };
 enum class DepthKind { automatic, planar, ray };
@@ -38,4 +40,4 @@ struct CameraSource {
     double max_residual = 0.5;  ///< pixels; a camera that reprojects positions worse than this is refused
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

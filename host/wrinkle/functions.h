@@ -24,7 +24,9 @@
 ///     wrinkle::Columns in{{"n.x", zero}, {"n.y", zero}, {"n.z", one}, {"g.y", zero}, {"g.z", zero}};
 ///     in["g.x"] = slope;
 ///     wrinkle::evaluate_function(wrinkle::Device::open(), resolve, in, {{"normal.x", x}, {"normal.z", z}});
-namespace wrinkle {
+///
+/// Threads: all of it may be called from several at once, evaluate_function() on one Device too.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 /// Columns of a parameter or result: `name`; `name.x`, `name.y`; `name.x`, `name.y`, `name.z`.
 enum class Shape { number, pair, vector };
@@ -96,7 +98,7 @@ struct Function {
     const FunctionVariant& variant(Precision wanted) const;
 };
 
-/// All functions, by concept.
+/// All functions, by concept; the table is made at the first call and stays.
 const std::vector<Function>& functions();
 /// Throws Error with the nearest name when there is none such.
 const Function& function(const std::string& name);
@@ -115,15 +117,16 @@ using SettingValue = std::variant<std::vector<double>, CameraSetting, std::files
 
 struct FunctionOptions {
     Precision precision = Precision::standard;  ///< fp64 is what the overload in double does by itself
-    int lanes = 0;                              ///< 0: the device's choice
+    int lanes = 0;                              ///< rows a work-item: 1, 4, 8 or 16; 0: the device's choice
     std::map<std::string, SettingValue> settings{};
 };
 
 /// Evaluates `function` for every row. Every column has the same length. Results that are not asked for are not stored.
+/// Results may be put where the input was: they are stored once all rows are done.
 /// Throws Error naming the column or setting that is missing, unknown or of another length.
 void evaluate_function(const Device& device, const Function& function, const Columns& in, const ColumnResults& out,
                        const FunctionOptions& options = {});
 void evaluate_function(const Device& device, const Function& function, const ColumnsInDouble& in,
                        const ColumnResultsInDouble& out, const FunctionOptions& options = {});
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

@@ -25,7 +25,9 @@
 ///
 ///     for (const wrinkle::Role& role : wrinkle::gbuffer_roles())
 ///         std::cout << role.name << " has " << role.planes.size() << " planes\n";
-namespace wrinkle {
+///
+/// Threads: the table of roles is made at the first call and stays; all of them may read it.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 /// A role with its planes; the table of the comment above as data.
 struct Role {
@@ -47,4 +49,4 @@ struct Marked {
     static constexpr int picture_hole = 16;  ///< the picture to relight was not finite: it counts as black
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

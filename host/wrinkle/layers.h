@@ -19,7 +19,9 @@
 ///     grain.bump = wrinkle::NoiseLayer{.frequency = 20, .octaves = 4};
 ///     grain.scale = 0.002;    // metres
 ///     grain.mask.object = 7;  // only on this object
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 // --- Layers that read a map -----------------------------------------------------------------------------------------
 
@@ -210,4 +212,4 @@ struct Layer {
     }
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

@@ -8,7 +8,9 @@
 ///
 ///     scene.lighting.relight = wrinkle::Relight::lit;
 ///     scene.lighting.lights = {{.kind = wrinkle::LightKind::sun, .direction = {0.6, 0, -0.8}}};
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 enum class LightKind { sun, point, spot };
 
@@ -34,4 +36,4 @@ struct Lighting {
     std::vector<Light> lights;
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

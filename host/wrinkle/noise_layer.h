@@ -6,7 +6,9 @@
 /// Noise as a bump.
 ///
 ///     grain.bump = wrinkle::NoiseLayer{.frequency = 20, .octaves = 4};
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 enum class NoiseType { perlin, perlin1985, simplex, worley };
 enum class CellFeature { f1, f2, f2_f1 };  ///< distance to the nearest point, to the second nearest, their difference
@@ -37,4 +39,4 @@ struct NoiseLayer {
     NoiseShape shape{};
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

@@ -21,7 +21,13 @@
 ///              {{"normal.x", out_x}, {"normal.y", out_y}, {"normal.z", out_z}});
 ///
 /// tests/examples/ holds a whole program for each pass.
-namespace wrinkle {
+///
+/// Memory: an output must not share memory with an input or another output, neither spans of the host nor buffers,
+/// sub-buffers or memory lent to buffers on the device; inputs may share. Kernels read neighbours and count on it.
+///
+/// Threads: a Pass is for one thread at a time, as OpenCL lets only one set the arguments of a kernel. Different passes
+/// may be made and run by different threads at once, on one Device or copies of it.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 /// The frame that a pass is made for.
 struct Frame {
@@ -41,7 +47,7 @@ using HostDoubles = std::map<std::string, std::span<double>>;
 using DevicePlanes = std::map<std::string, cl::Buffer>;
 
 struct PassOptions {
-    int lanes = 0;           ///< pixels a work-item; 0: the device's choice
+    int lanes = 0;           ///< pixels a work-item: 1, 4, 8 or 16; 0: the device's choice
     bool fp64 = false;       ///< evaluate in double, as a reference; outputs are double
     bool split = false;      ///< one kernel a layer through memory instead of one fused kernel, to compare
     Precisions precision{};  ///< of the geometry and the layers; not with fp64, which needs none
@@ -70,11 +76,13 @@ public:
     void set_camera(const Camera& camera);
 
     /// Whole frame from and to host memory, in bands of bounded size; blocks. Every plane holds size.width x
-    /// size.height numbers. Throws Error when a plane is missing or too short.
+    /// size.height numbers. Throws Error when a plane is missing or too short, or an output overlaps another plane.
     void run(const HostPlanes& in, const HostOutputs& out);
     void run(const HostPlanes& in, const HostDoubles& out);  ///< for a pass built with fp64
 
-    /// Enqueues the whole frame on the device's queue; `wait` first. The event is complete when the outputs are.
+    /// Enqueues the whole frame on the device's queue; `wait` first. The event is complete when the outputs are. Events
+    /// of other queues have to be flushed there, or they never come. Throws Error when a plane is missing or too small,
+    /// or an output shares memory with another plane.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const std::vector<cl::Event>& wait = {});
     /// Enqueues rows of the frame.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
@@ -104,4 +112,4 @@ Pass accumulate_decals(const Device& device, std::span<const Layer> decals, cons
 ///   inputs: normal.*, depth or position.*    outputs: dp_dx.*, dp_dy.* (world, metres per pixel right and down)
 Pass screen_derivatives(const Device& device, const Frame& frame, const PassOptions& options = {});
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

@@ -3,13 +3,15 @@
 #include <string>
 #include <vector>
 
-namespace wrinkle {
+namespace [[gnu::visibility("default")]] wrinkle {
 
 /// fast: native functions or less compensation, with its own error; standard: what scenes use; exact: compensated
 /// further; fp64: everything in double.
 ///
 ///     wrinkle::PassOptions careful;
 ///     careful.precision = {wrinkle::Precision::exact, {wrinkle::Precision::exact}};  // of one layer
+///
+/// Threads: values, used as any other.
 enum class Precision { fast, standard, exact, fp64 };
 
 /// "fast", "standard", "exact", "double".
@@ -23,4 +25,4 @@ struct Precisions {
     bool operator==(const Precisions&) const = default;
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

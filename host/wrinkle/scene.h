@@ -14,7 +14,10 @@
 ///     wrinkle::Scene scene;
 ///     scene.layers = {grain};
 ///     scene.output.half = true;  // 16-bit files
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one. load_scene() may be called by
+/// several at once.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 struct Output {
     bool surface_gradient = false, dp_dx = false, dp_dy = false, marked = false;  ///< beside the normal
@@ -45,4 +48,4 @@ struct Scene {
 /// Throws Error listing every problem as "file:line: what was found; what is allowed", nearest known key included.
 Scene load_scene(const std::filesystem::path& file);
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

@@ -9,7 +9,9 @@
 ///
 ///     const wrinkle::TextureUse bricks{.file = "bricks.png", .content = wrinkle::Content::normal, .y_down = true};
 ///     const wrinkle::UvMapping four_times{.scale = {4, 4}};
-namespace wrinkle {
+///
+/// Threads: values, used as any other: read by several at once, or changed by one.
+namespace [[gnu::visibility("default")]] wrinkle {
 
 /// What the texels mean: heights in units of `scale`; tangent-space normals; slopes dh/du, dh/dv; normals in object or
 /// world space.
@@ -41,4 +43,4 @@ struct UvMapping {
     Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
 };
 
-}  // namespace wrinkle
+}  // namespace gnu::visibility("default")]]wrinkle

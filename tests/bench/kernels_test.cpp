@@ -5,12 +5,13 @@
 #include <fstream>
 
 #include "device/program.h"
+#include "tests/device/test_device.h"
 
 namespace wrinkle::bench {
 namespace {
 
 TEST(BenchKernels, Build) {
-    const Device device = Device::open();
+    const Device& device = test::test_device();
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(WRINKLE_SOURCE_DIR "/bench/kernels")) {
         std::ifstream in(entry.path());

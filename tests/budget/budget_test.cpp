@@ -55,6 +55,7 @@ TEST_P(Budgets, AreKept) {
     const TempFolder folder;
     RenderOptions options;
     options.directory = folder / "out";
+    options.device = test_device_name();
     for (const double max_error : kBudgets) {
         scene.budget = {.max_error = max_error, .sample = std::numeric_limits<int>::max()};
         const RenderReport report = render(scene, options);

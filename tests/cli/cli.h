@@ -5,7 +5,9 @@
 
 #include <cstdlib>
 #include <regex>
+#include <set>
 
+#include "tests/device/test_device.h"
 #include "tests/io/files.h"
 
 /// Runs the built program as a user would.
@@ -32,8 +34,9 @@ public:
     /// `before`: shell text in front of the program, such as "ulimit -f 8;" or "NAME=value". `input`: standard input.
     Ran run(const std::string& arguments, const std::string& before = {},
             const std::string& input = "/dev/null") const {
-        const std::string command = fmt::format("cd '{}' && {} '{}' {} > stdout.txt 2> stderr.txt < {}",
-                                                (folder_ / "").string(), before, WRINKLE_CLI, arguments, input);
+        const std::string command =
+            fmt::format("cd '{}' && {} '{}' {} > stdout.txt 2> stderr.txt < {}", (folder_ / "").string(), before,
+                        WRINKLE_CLI, on_test_device(arguments), input);
         const int status = std::system(command.c_str());
         const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
         Ran ran{code, read_text(folder_ / "stdout.txt"), read_text(folder_ / "stderr.txt")};
@@ -64,6 +67,16 @@ public:
     static std::string data_file(const std::string& name) { return (data_folder / name).string(); }
 
 private:
+    /// Commands that need a device get the one of all tests, unless a test chooses.
+    static std::string on_test_device(const std::string& arguments) {
+        const std::string command = arguments.substr(0, arguments.find(' '));
+        const std::set<std::string> need_one{"run", "eval", "figures", "bake-volume", "bake-frame", "tune"};
+        if (test_device_name().empty() || !need_one.contains(command) ||
+            arguments.find("--device") != std::string::npos)
+            return arguments;
+        return command + " --device '" + test_device_name() + "'" + arguments.substr(command.size());
+    }
+
     TempFolder folder_;
 };
 

@@ -79,6 +79,29 @@ TEST(Commands, Explain) {
     expect_mentions(warned.err, {"wrinkle: warning: ", "small.exr", "pixels away"});
 }
 
+TEST(Commands, LanesAsAsked) {
+    const Workplace place;
+    place.write_scene(tilt);
+    std::map<std::string, std::string> pictures;
+    for (const char* lanes : {"1", "4", "8", "16"}) {
+        const Ran ran = place.run(fmt::format("run scene.toml --json --lanes {0} -o out{0}", lanes));
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(nlohmann::json::parse(ran.out).at("lanes"), std::stoi(lanes));
+        const auto planned =
+            nlohmann::json::parse(place.run("explain scene.toml --json --lanes " + std::string(lanes)).out);
+        EXPECT_EQ(planned.at("device").at("flags"), fmt::format("-cl-std=CL1.2 -D WR_LANES={}", lanes));
+        pictures[lanes] = read_text(place / fmt::format("out{}/normal.png", lanes));
+    }
+    for (const auto& [lanes, picture] : pictures) EXPECT_EQ(picture, pictures["1"]) << lanes << ", to 16 bits";
+    for (const char* lanes : {"0", "2", "5", "many"})
+        for (const std::string command : {"run", "explain"})
+            expect_failed(place.run(command + " scene.toml --lanes " + lanes), {"--lanes", lanes, "\"16\""});
+    const Ran text = place.run("explain scene.toml --no-source --device 0");
+    expect_mentions(text.out, {" lanes: -cl-std=CL1.2 -D WR_LANES="});
+    expect_failed(place.run("explain scene.toml --device nowhere"), {"nowhere", "no OpenCL device"});
+    expect_mentions(place.run("run --help").out, {"--lanes", "1, 4, 8 or 16"});
+}
+
 TEST(Commands, RunWritesPictures) {
     const Workplace place;
     place.write_scene(tilt + lit);

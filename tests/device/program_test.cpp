@@ -8,6 +8,7 @@
 
 #include "device/kernel_sources.h"
 #include "tests/device/environment.h"
+#include "tests/device/test_device.h"
 #include "tests/io/files.h"
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
@@ -18,10 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::TempFolder, test::Variable;
 
-const Device& device() {
-    static const Device opened = Device::open();
-    return opened;
-}
+const Device& device() { return test::test_device(); }
 
 const std::string text = "kernel void fill(global float *out) { out[get_global_id(0)] = 40 + get_global_id(0); }\n";
 

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "functions/column_kernel.h"
 #include "tests/cases/cases.h"
+#include "tests/device/test_device.h"
 
 /// Runs pieces of kernel text over columns of numbers, so that every kernel function can be tested by itself.
 namespace wrinkle::test {
@@ -18,15 +16,6 @@ struct Variant {
     int lanes = 8;
     bool fp64 = false;
 };
-
-inline const Device& test_device() {
-    static const Device device = [] {
-        const std::string folder = (std::filesystem::temp_directory_path() / "wrinkle_test_cache").string();
-        ::setenv("WRINKLE_CACHE_DIR", folder.c_str(), 0);
-        return Device::open();
-    }();
-    return device;
-}
 
 template <class T>
 Results run_as(const ColumnKernel& kernel, const Columns& columns, int lanes, const ColumnData& data) {

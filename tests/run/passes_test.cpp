@@ -165,11 +165,12 @@ TEST(Refused, PlanesMissingOrShort) {
                    }),
                    {"double", "fp64"});
 
-    const cl::Buffer small(device().context, CL_MEM_READ_WRITE, 64);
-    DevicePlanes buffers;
-    for (const char* name : {"depth", "normal.x", "normal.y", "normal.z"}) buffers[name] = small;
-    expect_refused(refusal([&] { pass.enqueue(buffers, buffers); }), {"depth", "64 bytes"});
-    EXPECT_NE(refusal([&] { pass.enqueue(buffers, buffers, Rows{20, 4, 0, 0}); }).find("20 to 24"), std::string::npos);
+    DevicePlanes small, written;
+    for (const char* name : {"depth", "normal.x", "normal.y", "normal.z"})
+        for (DevicePlanes* planes : {&small, &written})
+            (*planes)[name] = cl::Buffer(device().context, CL_MEM_READ_WRITE, 64);
+    expect_refused(refusal([&] { pass.enqueue(small, written); }), {"depth", "64 bytes"});
+    EXPECT_NE(refusal([&] { pass.enqueue(small, written, Rows{20, 4, 0, 0}); }).find("20 to 24"), std::string::npos);
 }
 
 TEST(Refused, CamerasAndFrames) {
@@ -201,13 +202,16 @@ TEST(Refused, BandsWithoutTheRowsTheyNeed) {
     scene.layers[0].bump = weave;
     Pass pass = evaluate(device(), scene, frame.frame);
     ASSERT_TRUE(pass.needs_neighbours());
-    DevicePlanes buffers;
-    for (const auto& names : {pass.inputs(), pass.outputs()})
+    const auto buffers = [&](const std::vector<std::string>& names) {
+        DevicePlanes planes;
         for (const std::string& name : names)
-            buffers[name] = cl::Buffer(device().context, CL_MEM_READ_WRITE, padded(frame.count() + 64) * sizeof(float));
-    expect_refused(refusal([&] { pass.enqueue(buffers, buffers, Rows{4, 4, 0, 1}); }), {"neighbours"});
-    EXPECT_NO_THROW(pass.enqueue(buffers, buffers, Rows{4, 4, 1, 1}).wait());
-    EXPECT_NO_THROW(pass.enqueue(buffers, buffers, Rows{0, 4, 0, 1}).wait());
+            planes[name] = cl::Buffer(device().context, CL_MEM_READ_WRITE, padded(frame.count() + 64) * sizeof(float));
+        return planes;
+    };
+    const DevicePlanes in = buffers(pass.inputs()), out = buffers(pass.outputs());
+    expect_refused(refusal([&] { pass.enqueue(in, out, Rows{4, 4, 0, 1}); }), {"neighbours"});
+    EXPECT_NO_THROW(pass.enqueue(in, out, Rows{4, 4, 1, 1}).wait());
+    EXPECT_NO_THROW(pass.enqueue(in, out, Rows{0, 4, 0, 1}).wait());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "io/camera_file.h"
 #include "io/gbuffer_reader.h"
+#include "tests/device/test_device.h"
 #include "tests/reference/evaluate.h"
 #include "tests/reference/scene_images.h"
 #include "tests/reference/test_frame.h"
@@ -29,10 +30,7 @@ using reference::tilted_camera;
 
 inline const fs::path data_folder = fs::path(WRINKLE_SOURCE_DIR) / "data";
 
-inline const Device& device() {
-    static const Device opened = Device::open();
-    return opened;
-}
+inline const Device& device() { return test_device(); }
 
 /// A frame with its pixels.
 struct HostFrame {
