@@ -104,11 +104,11 @@ std::string Emitter::vector(const Layer& layer, const std::string& what, std::fu
                        }));
 }
 
-std::size_t Emitter::origin(const Layer& layer, std::function<Origin(const Layer&)> of) {
-    plan.origins.push_back([index = index_of(layer), of = std::move(of)](const NumberSource& source) {
+std::size_t Emitter::eye_place(const Layer& layer, std::function<EyePlace(const Layer&)> of) {
+    plan.eye_places.push_back([index = index_of(layer), of = std::move(of)](const NumberSource& source) {
         return of(source.scene.layers.at(index));
     });
-    return plan.origins.size() - 1;
+    return plan.eye_places.size() - 1;
 }
 
 void Emitter::need(const std::string& who, const std::vector<std::string>& planes) const {

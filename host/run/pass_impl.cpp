@@ -125,7 +125,7 @@ void Pass::Impl::upload_constants() {
     const bool wide = options.fp64;
     frame = structs(device, std::vector{constants.frame}, wide);
     numbers = reals(device, constants.numbers.data(), constants.numbers.size(), wide);
-    origins = reals(device, constants.origins.data(), constants.origins.size(), wide);
+    eye_places = reals(device, constants.eye_places.data(), constants.eye_places.size(), wide);
     decals = structs(device, constants.decals, wide);
     light_setup = structs(device, std::vector{constants.lighting}, wide);
     lights = structs(device, constants.lights, wide);
@@ -158,7 +158,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         cl::Kernel& kernel = kernels[k];
         cl_uint i = 0;
         for (const cl::Buffer* buffer :
-             {&frame, &numbers, &origins, &textures->texels, &textures->table, &decals, &light_setup, &lights})
+             {&frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
         if (plan.tiles) bins.set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));

@@ -23,7 +23,7 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     BuiltProgram built;
     std::vector<cl::Kernel> kernels;
     std::shared_ptr<const DeviceTextures> textures;
-    cl::Buffer frame, numbers, origins, decals, light_setup, lights;
+    cl::Buffer frame, numbers, eye_places, decals, light_setup, lights;
     DecalBins bins;                   ///< of the plan's tables of decals, if it has any
     std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
     std::vector<std::string> scratch_names;
