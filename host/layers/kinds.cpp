@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/check_scene.h"
 #include "scene/readers.h"
 
 namespace wrinkle {
@@ -36,6 +37,8 @@ LayerKinds layer_kinds() {
 }
 
 Scene load_scene(const std::filesystem::path& file) { return scene::load_scene(layer_kinds(), file); }
+
+void check(const Scene& scene) { scene::check_scene(layer_kinds(), scene); }
 
 Figure load_figure(const std::filesystem::path& file) { return scene::load_figure(layer_kinds(), file); }
 

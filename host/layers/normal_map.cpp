@@ -58,8 +58,8 @@ Vec3 plane_axis(const UvMapping& uv) {
 }
 
 void read(scene::Table& table, Layer& layer) {
-    NormalMapLayer bump;
-    scene::read_texture_file(table, bump.texture);
+    auto bump = scene::held<NormalMapLayer>(layer);
+    scene::read_texture_of(table, bump.texture, Content::normal);
     scene::read_green(table, bump.texture);
     scene::read_mapped(table, bump.texture, bump.uv);
     table.choose("combine", bump.combine,
@@ -71,6 +71,7 @@ void read(scene::Table& table, Layer& layer) {
     table.choose(
         "frame", bump.frame,
         {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"tangents", TangentSource::planes}});
+    if (bump.frame == TangentSource::automatic) table.compiled_in("uv.rotation", bump.uv.rotation != 0);
     if (bump.frame == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
         table.complain("frame",
                        "is \"tangents\", which belongs to the UV pass as it is: uv must not be planar or turn");

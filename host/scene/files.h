@@ -6,7 +6,8 @@
 namespace wrinkle::scene {
 
 /// Why `file` cannot be an input, or nothing. With `pattern`, a frame pattern (io/frame_path.h) needs only its folder.
-std::string why_not_readable(const std::filesystem::path& file, bool pattern);
+/// `from` names the folder that relative paths start from.
+std::string why_not_readable(const std::filesystem::path& file, bool pattern, const char* from);
 
 /// The whole file. Throws Error when there is none, it is a folder, or it cannot be read.
 std::string read_text(const std::filesystem::path& file);

@@ -28,7 +28,7 @@ enum class DecalMode { surface_gradient, projector };
 /// along z.
 struct DecalLayer {
     static constexpr const char* kind = "decal";
-    TextureUse texture;
+    TextureUse texture{.wrap = Wrap::clamp};
     Vec3 center{};
     Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};  ///< made orthonormal; axis_z = axis_x x axis_y points at the projector
     Vec3 half_size{0.5, 0.5, 0.5};          ///< metres
