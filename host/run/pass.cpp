@@ -81,6 +81,10 @@ void Pass::set_camera(const Camera& camera) {
     guarded("set the camera", [&] { impl_->set_camera(camera); });
 }
 
+void Pass::set_parameters(const Scene& scene) {
+    guarded("set the parameters of a pass", [&] { impl_->set_parameters(scene); });
+}
+
 void Pass::run(const HostPlanes& in, const HostOutputs& out) {
     guarded("run a pass", [&] { run_bands<float>(*impl_, in, out); });
 }
@@ -101,7 +105,12 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const R
     if (impl_->plan.neighbours && ((rows.first > 0 && rows.before == 0) || (end < height && rows.after == 0)))
         throw Error(fmt::format("rows {} to {} need a row before and after them, as the pass reads neighbours",
                                 rows.first, end));
-    return guarded("enqueue a pass", [&] { return impl_->enqueue(in, out, rows, wait); });
+    return guarded("enqueue a pass", [&] {
+        impl_->save_if_complete();
+        const cl::Event done = impl_->enqueue(in, out, rows, wait);
+        if (impl_->first_run() == nullptr) impl_->first_run = done;
+        return done;
+    });
 }
 
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options) {

@@ -27,7 +27,8 @@ struct Pass::Impl {
     std::vector<std::string> scratch_names;
     double texture_seconds = 0, build_seconds = 0;
     bool saved = false;
-    bool warm = false;  ///< the kernels ran before
+    cl::Event first_run;  ///< of kernels that callers enqueued
+    bool warm = false;    ///< the kernels ran before
 
     Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
          const PlanOptions& plan_options);
@@ -38,14 +39,22 @@ struct Pass::Impl {
     };
 
     void set_camera(const Camera& other);
+    void set_parameters(const Scene& other);
     /// Evaluates what depends on the camera and on the scene's numbers, and has it on the device.
     void upload_constants();
     /// Evaluates the rows, or only `some` of their work-items where any are given.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                       const std::vector<cl::Event>& wait, std::span<const Items> some = {});
 
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
     /// Writes the program to the disk cache, once; after the first kernels ran.
     void save();
+    /// The same for kernels that callers enqueued, which nobody here waits for: nothing is done until the first of them
+    /// are complete.
+    void save_if_complete();
     std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
 };
 
