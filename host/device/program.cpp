@@ -19,10 +19,13 @@ BuiltProgram build_program(const Device& device, const std::string& text, const 
     const std::string source = expand_includes(text, "evaluate.cl");
     const std::string flags = build_flags(options);
     BuiltProgram built;
-    built.cache_file = cache_file(
-        fmt::format("{}\n{}\n{}\n{}\n{}", flags, device.info.name, device.info.version, device.info.driver, source));
+    const cl::Platform platform(device.device.getInfo<CL_DEVICE_PLATFORM>());
+    built.key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", flags, platform.getInfo<CL_PLATFORM_NAME>(),
+                            platform.getInfo<CL_PLATFORM_VERSION>(), device.info.name, device.info.version,
+                            device.info.driver, source);
+    built.cache_file = cache_file(built.key);
     if (!built.cache_file.empty()) {
-        if (std::vector<unsigned char> binary = read_program(built.cache_file); !binary.empty()) {
+        if (std::vector<unsigned char> binary = read_program(built.cache_file, built.key); !binary.empty()) {
             try {
                 built.program = cl::Program(device.context, {device.device}, cl::Program::Binaries{std::move(binary)});
                 built.program.build(device.device, flags.c_str());
@@ -49,7 +52,7 @@ void save_program(const BuiltProgram& built) {
     try {
         const auto binaries = built.program.getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.empty() || binaries.front().empty()) return;
-        write_program(built.cache_file, binaries.front());
+        write_program(built.cache_file, built.key, binaries.front());
     } catch (const cl::Error&) {
         // a driver without binaries: the next start compiles again
     }

@@ -129,4 +129,4 @@ void evaluate_function(const Device& device, const Function& function, const Col
 void evaluate_function(const Device& device, const Function& function, const ColumnsInDouble& in,
                        const ColumnResultsInDouble& out, const FunctionOptions& options = {});
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle
