@@ -8,10 +8,23 @@
 
 namespace wrinkle {
 
+namespace {
+
+/// What is compiled in for the device, whatever the program.
+std::string flags_for(const Device& device, const BuildOptions& options) {
+    std::string flags = fmt::format("-cl-std=CL1.2 -D WR_LANES={}{}", options.lanes, options.fp64 ? " -D WR_FP64" : "");
+    if (device.info.platform == "Portable Computing Language") flags += " -D WR_POCL_BUILTINS";
+    // Without it OpenCL lets 1 / x be wrong by 2.5 ulp and sqrt by 3, and the documented errors are for less.
+    if ((device.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
+        flags += " -cl-fp32-correctly-rounded-divide-sqrt";
+    return flags;
+}
+
+}  // namespace
+
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options) {
     const std::string source = expand_includes(text, "evaluate.cl");
-    const std::string flags =
-        fmt::format("-cl-std=CL1.2 -D WR_LANES={}{}", options.lanes, options.fp64 ? " -D WR_FP64" : "");
+    const std::string flags = flags_for(device, options);
     BuiltProgram built;
     built.cache_file = cache_file(
         fmt::format("{}\n{}\n{}\n{}\n{}", flags, device.info.name, device.info.version, device.info.driver, source));
