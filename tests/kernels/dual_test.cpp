@@ -109,15 +109,15 @@ TEST(Dual, OtherNoise) {
         c.in("v", random.box(3));
         c.out("rest", V{0, 0, 0});
     }
-    for (const char* pair :
-         {"wr_simplex(q)|wr_simplex_noise(at, form, (wr_real)(1), (wr_real)(0))",
-          "wr_worley(q, WR_F1)|wr_worley_noise(at, WR_F1)", "wr_worley(q, WR_F2_F1)|wr_worley_noise(at, WR_F2_F1)"}) {
+    for (const char* pair : {"wr_simplex(q)|wr_simplex_noise(where, form, (wr_real)(1), (wr_real)(0))",
+                             "wr_worley(q, WR_F1)|wr_worley_noise(where, WR_F1)",
+                             "wr_worley(q, WR_F2_F1)|wr_worley_noise(where, WR_F2_F1)"}) {
         const std::string both = pair;
         const std::size_t bar = both.find('|');
         check(c,
               "wr_point p = wr_point_of(v), q = {wr_multiply(p.y, 2), wr_multiply(p.z, -3), p.x};\n"
               "const wr_simplex_form form = {{0, 0, 0}, 0};\n"
-              "wr_lattice_point at = wr_lattice_at(wr_v3(2 * v.y, -3 * v.z, v.x));\n"
+              "wr_lattice_point where = wr_lattice_at(wr_v3(2 * v.y, -3 * v.z, v.x));\n"
               "wr_dual d = " +
                   both.substr(0, bar) + ";\nwr_field f = " + both.substr(bar + 1) +
                   ";\n"
