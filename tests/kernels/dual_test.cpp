@@ -110,7 +110,6 @@ TEST(Dual, OtherNoise) {
         c.out("rest", V{0, 0, 0});
     }
     for (const char* pair : {"wr_simplex(q)|wr_simplex_noise(where, form, (wr_real)(1), (wr_real)(0))",
-                             "wr_worley(q, WR_F1)|wr_worley_noise(where, WR_F1)",
                              "wr_worley(q, WR_F2_F1)|wr_worley_noise(where, WR_F2_F1)"}) {
         const std::string both = pair;
         const std::size_t bar = both.find('|');
