@@ -15,9 +15,23 @@ std::string build_flags(const BuildOptions& options) {
     return fmt::format("-cl-std=CL1.2 -D WR_LANES={}{}", options.lanes, options.fp64 ? " -D WR_FP64" : "");
 }
 
+namespace {
+
+/// What is compiled in for the device beyond the options, whatever the program.
+std::string device_flags(const Device& device) {
+    std::string flags;
+    if (device.info.platform == "Portable Computing Language") flags += " -D WR_POCL_BUILTINS";
+    // Without it OpenCL lets 1 / x be wrong by 2.5 ulp and sqrt by 3, and the documented errors are for less.
+    if ((device.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
+        flags += " -cl-fp32-correctly-rounded-divide-sqrt";
+    return flags;
+}
+
+}  // namespace
+
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options) {
     const std::string source = expand_includes(text, "evaluate.cl");
-    const std::string flags = build_flags(options);
+    const std::string flags = build_flags(options) + device_flags(device);
     BuiltProgram built;
     const cl::Platform platform(device.device.getInfo<CL_DEVICE_PLATFORM>());
     built.key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", flags, platform.getInfo<CL_PLATFORM_NAME>(),
