@@ -41,7 +41,7 @@ void read_parameters(scene::Table& table, std::map<std::string, double>& out) {
     for (auto& [name, value] : out) {
         if (!is_name(name)) table.complain(name, kNameRule);
         table.read(name, value);
-        table.compiled_in(name, "given");
+        table.compiled_in(name, std::string("given"));
     }
     table.finish();
 }

@@ -198,8 +198,11 @@ TEST(Parameters, StayWithinTheStructure) {
     expect_refused([](Scene& s) { s.layers[1].bump = ResolveLayer{}; }, {"\"kind\" in layer \"tilt\" is resolve"});
     expect_refused([](Scene& s) { s.layers[1].project = false; }, {"\"project\" in layer \"tilt\""});
     expect_refused([](Scene& s) { s.layers.pop_back(); }, {"\"layer\" in the scene is 1"});
-    expect_refused([](Scene& s) { s.lighting.relight = Relight::lit, s.lighting.ambient = {1, 1, 1}; },
-                   {"\"relight\" in [lighting] is lit where the pass is made for off"});
+    expect_refused(
+        [](Scene& s) {
+            s.lighting.relight = Relight::lit, s.lighting.ambient = {1, 1, 1};
+        },
+        {"\"relight\" in [lighting] is lit where the pass is made for off"});
     expect_refused([](Scene& s) { s.output.dp_dx = true; }, {"\"dp_dx\" in [output]"});
     expect_refused([&](Scene& s) { noise(s).frequency = -1; }, {"\"frequency\" in layer \"grain\" must be"});
     expect_same_bits(run(pass, frame), before, "after refusals");

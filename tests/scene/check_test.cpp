@@ -49,7 +49,8 @@ protected:
         std::string all;
         for (const std::string& problem : problems(frame_ + text)) {
             const std::string bare = std::regex_replace(problem, std::regex("^courtyard.toml:[0-9]+: "), "");
-            all += (all.empty() ? "" : "\n") + std::regex_replace(bare, std::regex("\\[\\[(layer|light)\\]\\] "), "$1 ");
+            all +=
+                (all.empty() ? "" : "\n") + std::regex_replace(bare, std::regex("\\[\\[(layer|light)\\]\\] "), "$1 ");
         }
         return all;
     }
