@@ -82,6 +82,7 @@ void change_each(const TempFolder& folder, const std::string& text, const Use& u
         std::string refusals;
         bool taken = false;
         for (const std::string& other : others(was, number.key)) {
+            if (other == was) continue;
             const std::string changed = std::string(text).replace(number.first, number.size, other);
             try {
                 use(number, changed, load(folder, changed));
@@ -89,7 +90,9 @@ void change_each(const TempFolder& folder, const std::string& text, const Use& u
                 break;
             } catch (const Error& error) { refusals += std::string("\n") + error.what(); }
         }
-        EXPECT_TRUE(taken || refusals.empty()) << number.table << " " << number.key << " = " << was << refusals;
+        const bool fixed = refusals.find("its last row is [0, 0, 0, 1]") != std::string::npos;
+        EXPECT_TRUE(taken || fixed || refusals.empty())
+            << number.table << " " << number.key << " = " << was << refusals;
     }
 }
 
@@ -198,8 +201,11 @@ TEST(Parameters, StayWithinTheStructure) {
     expect_refused([](Scene& s) { s.layers[1].bump = ResolveLayer{}; }, {"\"kind\" in layer \"tilt\" is resolve"});
     expect_refused([](Scene& s) { s.layers[1].project = false; }, {"\"project\" in layer \"tilt\""});
     expect_refused([](Scene& s) { s.layers.pop_back(); }, {"\"layer\" in the scene is 1"});
-    expect_refused([](Scene& s) { s.lighting.relight = Relight::lit, s.lighting.ambient = {1, 1, 1}; },
-                   {"\"relight\" in [lighting] is lit where the pass is made for off"});
+    expect_refused(
+        [](Scene& s) {
+            s.lighting.relight = Relight::lit, s.lighting.ambient = {1, 1, 1};
+        },
+        {"\"relight\" in [lighting] is lit where the pass is made for off"});
     expect_refused([](Scene& s) { s.output.dp_dx = true; }, {"\"dp_dx\" in [output]"});
     expect_refused([&](Scene& s) { noise(s).frequency = -1; }, {"\"frequency\" in layer \"grain\" must be"});
     expect_same_bits(run(pass, frame), before, "after refusals");
