@@ -73,9 +73,9 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out) {
     if (!root.visits()) {
         require_table(root, "gbuffer", "file = \"frame.exr\"");
         require_table(root, "camera", "from = \"exr\"");
-        if (auto table = root.table("camera", "[camera]")) read_camera(*table, out.camera);
     }
     if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
+    if (auto table = root.table("camera", "[camera]", false)) read_camera(*table, out.camera);
     read_layers(root, kinds, out.layers);
     read_lights(root, out.lighting);
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);

@@ -82,6 +82,7 @@ void change_each(const TempFolder& folder, const std::string& text, const Use& u
         std::string refusals;
         bool taken = false;
         for (const std::string& other : others(was, number.key)) {
+            if (other == was) continue;
             const std::string changed = std::string(text).replace(number.first, number.size, other);
             try {
                 use(number, changed, load(folder, changed));
@@ -89,7 +90,9 @@ void change_each(const TempFolder& folder, const std::string& text, const Use& u
                 break;
             } catch (const Error& error) { refusals += std::string("\n") + error.what(); }
         }
-        EXPECT_TRUE(taken || refusals.empty()) << number.table << " " << number.key << " = " << was << refusals;
+        const bool fixed = refusals.find("its last row is [0, 0, 0, 1]") != std::string::npos;
+        EXPECT_TRUE(taken || fixed || refusals.empty())
+            << number.table << " " << number.key << " = " << was << refusals;
     }
 }
 
