@@ -53,8 +53,7 @@ TEST_P(EveryKernelFile, CompilesAloneAndTwice) {
     if (std::string(WRINKLE_CLANG).ends_with("NOTFOUND")) GTEST_SKIP() << "clang was not found by cmake";
     const std::string text = fmt::format("{0}#include \"{1}\"\n#include \"{1}\"\n", kOwnNames, GetParam());
     for (const char* language : {"CL1.2", "CL3.0"})
-        for (const char* lanes :
-             {"", "-DWR_LANES=1", "-DWR_LANES=8", "-DWR_LANES=16", "-DWR_LANES=16 -DWR_POCL_BUILTINS"})
+        for (const char* lanes : {"", "-DWR_LANES=8", "-DWR_LANES=16", "-DWR_LANES=16 -DWR_POCL_BUILTINS"})
             for (const char* precision : {"", "-DWR_FP64"}) {
                 const std::string flags = fmt::format("-cl-std={} {} {}", language, lanes, precision);
                 EXPECT_EQ(complaints(text, flags), "") << GetParam() << ", " << flags;
