@@ -183,8 +183,8 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         cl::Kernel& kernel = kernels[k];
         cl_uint i = 0;
-        for (const cl::Buffer* buffer :
-             {&frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
+        for (const cl::Buffer* buffer : std::initializer_list<const cl::Buffer*>{
+                 &frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
         if (plan.tiles) bins.set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));

@@ -142,8 +142,8 @@ TEST_F(Check, NumbersOfMaps) {
          {"upscale = \"taps\"\nwrap = \"clamp\"",
           [](HeightMapLayer& b, Layer&) { b.texture.upscale = Upscale::taps, b.texture.wrap = Wrap::clamp; }}});
     expect_same<NormalMapLayer>(texture_, {},
-                                {{"uv = { rotation = 5 }\nframe = \"tangents\"", [](NormalMapLayer& b, Layer&) {
-                                      b.uv.rotation = 5 * degree, b.frame = TangentSource::planes;
+                                {{"uv = { rotation = 5 }\ntangents = \"passes\"", [](NormalMapLayer& b, Layer&) {
+                                      b.uv.rotation = 5 * degree, b.tangents = TangentSource::planes;
                                   }}});
     expect_same<DerivativeMapLayer>(texture_, {},
                                     {{"scale = nan", [](DerivativeMapLayer&, Layer& l) { l.scale = nan; }}});
@@ -199,6 +199,27 @@ TEST_F(Check, NumbersInSpace) {
           [](VolumeLayer& b, Layer&) { b.transform[0][0] = 0; }},
          {"transform = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]]",
           [](VolumeLayer& b, Layer&) { b.transform[3][0] = 1; }}});
+}
+
+TEST_F(Check, KernelsOfTheUser) {
+    KernelLayer bumps;
+    bumps.file = wall();
+    bumps.function = "bumps";
+    bumps.parameters["depth"] = 1;
+    expect_same<KernelLayer>(
+        "file = \"textures/wall.png\"\nfunction = \"bumps\"", bumps,
+        {{"parameters = { depth = nan }", [](KernelLayer& b, Layer&) { b.parameters["depth"] = nan; }},
+         {"parameters = { float = 1.0 }",
+          [](KernelLayer& b, Layer&) {
+              b.parameters = {{"float", 1}};
+          }},
+         {"uv = { scale = [0.0, 1.0] }", [](KernelLayer& b, Layer&) {
+              b.uv = UvMapping{.scale = {0, 1}};
+          }}});
+    bumps.function = "kernel";
+    expect_refused(layer(bumps), {"\"function\" in layer \"bump\" must be a name as C has them"});
+    bumps.function.clear();
+    expect_refused(layer(bumps), {"layer \"bump\" needs \"function\""});
 }
 
 TEST_F(Check, NumbersOfLight) {
