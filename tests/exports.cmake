@@ -1,5 +1,6 @@
 # Checks that the shared library exports the functions of the public headers, and nothing that these do not name.
 # Run with -DLIBRARY=... -DNM=... -DHEADERS=... -P.
+cmake_policy(VERSION 3.25)
 execute_process(COMMAND ${NM} -D --defined-only -C ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "," symbols "${symbols}")
 string(REPLACE "\n" ";" symbols "${symbols}")

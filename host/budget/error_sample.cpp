@@ -20,8 +20,9 @@ const Device& with_double(const Device& device) {
 
 }  // namespace
 
-ErrorSample::ErrorSample(const Device& device, const Scene& scene, const Frame& frame, const ErrorBudget& budget)
-    : reference_(evaluate(with_double(device), normals_only(scene), frame, {.fp64 = true})),
+ErrorSample::ErrorSample(const Device& device, const Scene& scene, const Frame& frame, const ErrorBudget& budget,
+                         TextureStore* store)
+    : reference_(evaluate(with_double(device), normals_only(scene), frame, {.fp64 = true}, store)),
       frame_(frame),
       wanted_(static_cast<std::size_t>(budget.sample)),
       seed_(static_cast<std::uint64_t>(budget.seed)) {}

@@ -15,7 +15,8 @@ namespace wrinkle {
 class ErrorSample : public BandCheck {
 public:
     /// Throws Error where the device has no double precision.
-    ErrorSample(const Device& device, const Scene& scene, const Frame& frame, const ErrorBudget& budget);
+    ErrorSample(const Device& device, const Scene& scene, const Frame& frame, const ErrorBudget& budget,
+                TextureStore* store = nullptr);
 
     /// Whether it can measure passes for another frame; a frame's camera is given to start().
     bool fits(const Frame& frame) const;

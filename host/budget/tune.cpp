@@ -31,10 +31,11 @@ struct Measured {
 
 class Tuner {
 public:
-    Tuner(const Device& device, const TuneOptions& options) : device_(device), options_(options) {}
+    Tuner(const Device& device, const TuneOptions& options) : device_(device), options_(options), store_(device) {}
 
     void measure(const Scene& from_file) {
         scene_ = from_file;
+        store_ = TextureStore(device_);  // of one scene at a time
         scene_.lighting = {};
         scene_.output = {};
         frame_ = describe_frame(scene_, 0);
@@ -68,7 +69,7 @@ private:
 
     /// Nanoseconds a pixel.
     double time(const Scene& scene, const PassOptions& how, ErrorSample* sample) {
-        Pass pass = evaluate(device_, scene, frame_, how);
+        Pass pass = evaluate(device_, scene, frame_, how, &store_);
         PhaseClock clock;
         FrameRun run(pass.impl(), *reader_, clock);
         run.repeat(options_.repeat);
@@ -78,8 +79,8 @@ private:
         return seconds * 1e9 / (static_cast<double>(frame_.size.width) * frame_.size.height);
     }
 
-    ErrorSample sample_of(const Scene& scene) const {
-        return {device_, scene, frame_, {.max_error = {}, .sample = options_.sample, .seed = options_.seed}};
+    ErrorSample sample_of(const Scene& scene) {
+        return {device_, scene, frame_, {.max_error = {}, .sample = options_.sample, .seed = options_.seed}, &store_};
     }
 
     void measure_layer(std::size_t index) {
@@ -127,6 +128,7 @@ private:
 
     const Device& device_;
     const TuneOptions& options_;
+    TextureStore store_;
     Scene scene_;
     Frame frame_;
     CameraKind kind_ = CameraKind::pinhole;

@@ -50,9 +50,8 @@ std::vector<Function> compose_functions() {
     const Parameter object_normal = direction("n", "base normal in object space"),
                     object_gradient = vector("g", "1", "surface gradient in object space");
     const std::string growth =
-        "As many times that as the largest term of the cofactors' sum is longer than the sum. 0 for scales that "
-        "flatten "
-        "the normal away.";
+        "error <= bound x ||largest term|| / ||sum|| for the sum over the cofactors. 0 for scales that flatten the "
+        "normal away.";
     const Parameter offset = pair("offset", "1", "offset of the texture coordinates");
     const Parameter range = pair("range", "1", "change of the texture coordinates from height 0 to 1, along the ray");
     const Parameter st = pair("st", "1", "texture coordinates of the surface point");
@@ -74,7 +73,7 @@ std::vector<Function> compose_functions() {
          .results = {result(vector("combined", "metres per metre, world", "surface gradient of the mean"),
                             {resolved_degrees})},
          .variants = {{standard, "combined = wr_combine_towards(n, g, other, weight);", {1e-5}}},
-         .note = "As many times that as the mean is shorter than 1. g for weight = 0."},
+         .note = "error <= bound / ||mean of the normals||. g for weight = 0."},
         {.name = "project_to_texture",
          .file = "compose/parallax.clh",
          .summary = "A direction in texture space: per metre along it, and per metre of height that it climbs",
@@ -171,7 +170,7 @@ std::vector<Function> compose_functions() {
                         direction("detail", "the normal to turn, perturbed from n")},
          .results = {result(direction("normal", "the detail on its new base"), {degrees})},
          .variants = {{standard, "normal = wr_reorient(n, base, detail);", {1e-5}}},
-         .note = "1 / cos(half the angle between n and base) times that. For base = -n the detail mirrored."},
+         .note = "error <= bound / cos(half the angle between n and base). For base = -n the detail mirrored."},
         combine("whiteout", "Whiteout across unwraps: each gradient over the other's cosine"),
         combine("udn", "UDN across unwraps: the detail times its cosine over that of what is below"),
         combine("linear", "The surface gradient of the mean of both normals; to compare with"),

@@ -70,7 +70,7 @@ std::vector<Function> source_functions() {
          .results = {result(pair("dh_dxy", "heights per pixel", "change to the right, downwards"), {absolute})},
          .variants = {{standard, "dh_dxy = wr_height_taps(heights, st, dst_dx, dst_dy, lod);", {3e-5}}},
          .fp64_error = 1e-6,
-         .note = "As many times that as texels the pixel spans, at most once; down to footprints of 1e-9, at tilings "
+         .note = "error <= bound x min(1, texels that the pixel spans); down to footprints of 1e-9, at tilings "
                  "up to 1e5."},
         {.name = "triplanar_weights",
          .file = "sources/triplanar.clh",
@@ -98,7 +98,7 @@ std::vector<Function> source_functions() {
                         vector("z_normal", "world", "of the z plane's map")},
          .results = {result(surface_gradient, {absolute})},
          .variants = {{standard, "g = wr_triplanar_normals(n, w, x_normal, y_normal, z_normal);", {1e-6}}},
-         .note = "As many times that as the largest of the three gradients and its square. A normal that faces away "
+         .note = "error <= bound x max(|g|, |g|^2) for the largest g of the three gradients. A normal that faces away "
                  "perturbs towards itself; one within the surface gives about 1e18."},
         {.name = "normal_offset",
          .file = "sources/triplanar.clh",

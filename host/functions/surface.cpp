@@ -62,7 +62,9 @@ std::vector<Function> surface_functions() {
                        "wr_texcoord c = wr_planar(p, dp_dx, dp_dy, axis_s, axis_t, offset_s, offset_t);\n"
                        "st = c.st, dst_dx = c.dx, dst_dy = c.dy;",
                        {2e-7, 2e-7, 2e-7}}},
-         .note = "As many times that as |axis| |p| + |offset|, |axis| |dp_dx| and |axis| |dp_dy|."},
+         .note = "error <= bound x (|axis| |p| + |offset|) of (s, t), and bound x |axis| |dp_dx|, bound x |axis| "
+                 "|dp_dy| of its "
+                 "derivatives."},
         {.name = "texture_step",
          .file = "surface/texcoord_derivative.clh",
          .summary = "Change of the texture coordinates for a step in space, from the tangents dp/du and dp/dv",
@@ -90,10 +92,10 @@ std::vector<Function> surface_functions() {
                        "wr_texcoord_change to_x = {change_x, step_x}, to_y = {change_y, step_y};\n"
                        "wr_texcoord_from_changes(to_x, to_y, dp_dx, dp_dy, &dst_dx, &dst_dy);",
                        {5e-7, 5e-7}}},
-         .note =
-             "As many times that as (|change_x| |step_y| + |change_y| |step_x|) |dp| / area for the area that the "
-             "steps span, and more for skewed ones. The changes themselves where the steps span less than a 64th of "
-             "what dp_dx and dp_dy do."},
+         .note = "error <= bound x (|change_x| |step_y| + |change_y| |step_x|) |dp| / area, where the steps span the "
+                 "area; larger "
+                 "where they are skewed. The changes themselves where the steps span less than a 64th of "
+                 "what dp_dx and dp_dy do."},
         {.name = "tangent_frame",
          .file = "surface/tangent_frame.clh",
          .summary = "Tangent and bitangent of any texture coordinates, without vertex tangents",

@@ -31,16 +31,16 @@ bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
     const Emitter& emitter = at.emitter;
     const std::vector<std::string> tangent{"tangent.x", "tangent.y", "tangent.z"};
     const bool fits = l.uv.source == UvSource::aov && l.uv.rotation == 0;
-    if (l.frame == TangentSource::planes) {
+    if (l.tangents == TangentSource::planes) {
         if (!fits)
             throw Error(at.who +
-                        ": frame = \"tangents\" belongs to the UV pass as it is, without rotation; use \"derived\"");
+                        ": tangents = \"passes\" belong to the UV pass as it is, without rotation; use \"derived\"");
         emitter.need(at.who, tangent);
         if (!emitter.has("tangent_sign"))
             emitter.need(at.who + " (without tangent_sign)", {"bitangent.x", "bitangent.y", "bitangent.z"});
         return true;
     }
-    return l.frame == TangentSource::automatic && fits &&
+    return l.tangents == TangentSource::automatic && fits &&
            std::ranges::all_of(tangent, [&](const auto& plane) { return emitter.has(plane); }) &&
            (emitter.has("tangent_sign") || emitter.has("bitangent.z"));
 }
@@ -69,11 +69,11 @@ void read(scene::Table& table, Layer& layer) {
                   {"rnm", Combine::rnm},
                   {"linear", Combine::linear}});
     table.choose(
-        "frame", bump.frame,
-        {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"tangents", TangentSource::planes}});
-    if (bump.frame == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
-        table.complain("frame",
-                       "is \"tangents\", which belongs to the UV pass as it is: uv must not be planar or turn");
+        "tangents", bump.tangents,
+        {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"passes", TangentSource::planes}});
+    if (bump.tangents == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
+        table.complain("tangents",
+                       "is \"passes\", which belong to the UV pass as it is: uv must not be planar or turn");
     scene::read_weight(table, layer);
     layer.bump = bump;
 }
@@ -115,7 +115,7 @@ std::string emit(LayerText& at) {
 }
 
 constexpr const char* tangent_roles[] = {"uv", "tangent", "tangent_sign or bitangent"};
-constexpr LayerUse uses[] = {{"", layers::uv_role}, {"frame = \"tangents\"", tangent_roles}};
+constexpr LayerUse uses[] = {{"", layers::uv_role}, {"tangents = \"passes\"", tangent_roles}};
 
 }  // namespace
 

@@ -150,15 +150,15 @@ private:
     }
 
     std::string coordinates() const {
-        const std::size_t origin = 4 * at_.emitter.origin(at_.layer, [](const Layer& layer) {
+        const std::size_t origin = 4 * at_.emitter.eye_place(at_.layer, [](const Layer& layer) {
             const Projection to = projection_of(triplanar_of(layer));
-            return Origin{.axes = to.rows, .offset = to.offset, .period = 1};
+            return EyePlace{.axes = to.rows, .offset = to.offset, .period = 1};
         });
         const auto all = [&](const std::string& name, bool offset) {
             std::string parts;
             for (std::size_t k = 0; k < 3; ++k)
                 parts += (k ? ",\n                       " : "") +
-                         row_times(k, name, offset ? fmt::format("origins[{}]", origin + k) : "0");
+                         row_times(k, name, offset ? fmt::format("eye_places[{}]", origin + k) : "0");
             return parts;
         };
         return fmt::format(

@@ -97,9 +97,9 @@ std::string emit(LayerText& at) {
                         at.who, l.file.string()));
     const Mat4 file = facts->second.index_from_world;
     const IndexMatrix matrix(at, file);
-    const std::size_t origin = at.emitter.origin(at.layer, [file](const Layer& layer) {
+    const std::size_t origin = at.emitter.eye_place(at.layer, [file](const Layer& layer) {
         const Mat4 m = index_from_world(file, layer);
-        return Origin{
+        return EyePlace{
             .axes = {Vec3{m[0][0], m[0][1], m[0][2]}, Vec3{m[1][0], m[1][1], m[1][2]}, Vec3{m[2][0], m[2][1], m[2][2]}},
             .offset = {m[0][3], m[1][3], m[2][3]}};
     });
@@ -107,7 +107,7 @@ std::string emit(LayerText& at) {
     at.section.operations += vectors ? kVector : smooth ? kSmooth : kLinear;
     std::string text = fmt::format(
         "        wr_volume v = wr_volume_at(texels, textures, {});\n"
-        "        wr_vec3 start = wr_v3(origins + {});  // the eye, in the grid's index space\n"
+        "        wr_vec3 start = wr_v3(eye_places + {});  // the eye, in the grid's index space\n"
         "        wr_vec3 q = {};\n",
         at.emitter.volume(l, smooth ? TexelKind::volume_smooth : TexelKind::volume), 4 * origin,
         matrix.times("p", false, "start"));

@@ -137,7 +137,8 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        // Pixels that no layer wants them at are spared the neighbours, unless it is written which have none.
+        // Derivatives by differences read four neighbours. Groups of pixels where no layer uses the coordinates skip
+        // that, unless `marked` is written: it tells of every pixel whether it had usable neighbours.
         const bool everywhere = emitter.options.split || !emitter.options.skip || emitter.scene.output.marked;
         const std::string wanted = everywhere ? "" : emit_wanted(emitter, mapped, section);
         text += wanted + fmt::format("        wr_mask usable = uv_valid{};\n", wanted.empty() ? "" : " & wanted") +

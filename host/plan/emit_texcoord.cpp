@@ -44,17 +44,17 @@ std::string emit_texcoord(Emitter& emitter, const Layer& layer, const UvOf& uv_o
     }
     section.reads.insert({"p", "dp_dx", "dp_dy"});
     section.operations += 36;
-    const std::size_t origin = emitter.origin(layer, [uv_of, wrap](const Layer& l) {
+    const std::size_t origin = emitter.eye_place(layer, [uv_of, wrap](const Layer& l) {
         const UvMapping& uv = uv_of(l);
         const auto rows = planar_rows(uv);
-        return Origin{.axes = {rows[0], rows[1], Vec3{}},
-                      .offset = {uv.offset[0], uv.offset[1], 0},
-                      .period = wrap == Wrap::repeat ? 1.0 : 0.0};
+        return EyePlace{.axes = {rows[0], rows[1], Vec3{}},
+                        .offset = {uv.offset[0], uv.offset[1], 0},
+                        .period = wrap == Wrap::repeat ? 1.0 : 0.0};
     });
     const std::string s = emitter.vector(layer, "ds/dp", [uv_of](const Layer& l) { return planar_rows(uv_of(l))[0]; });
     const std::string t = emitter.vector(layer, "dt/dp", [uv_of](const Layer& l) { return planar_rows(uv_of(l))[1]; });
-    return fmt::format("        wr_texcoord c = wr_planar(p, dp_dx, dp_dy, {}, {}, origins[{}], origins[{}]);\n", s, t,
-                       4 * origin, 4 * origin + 1);
+    return fmt::format("        wr_texcoord c = wr_planar(p, dp_dx, dp_dy, {}, {}, eye_places[{}], eye_places[{}]);\n",
+                       s, t, 4 * origin, 4 * origin + 1);
 }
 
 namespace {

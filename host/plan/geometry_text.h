@@ -9,11 +9,11 @@ struct GeometryText {
     std::vector<std::string> planes;
     std::string valid;     ///< mask of the planes, as text
     std::string position;  ///< sets p from pixel (x, y) and plane values z or px, py, pz
-    std::string along;     ///< how often p is the pixel's ray, from p and the ray d, or better
-    std::string pairs;     ///< the same as a wr_pair3; empty where there is none such
-    std::string here;      ///< parameters for what `step` asks of the pixel being evaluated ...
-    std::string given;     ///< ... and the arguments
-    std::string step;      ///< sets p to the way from there to a neighbour, `along` further on the image
+    std::string along;     ///< the factor r of p = r d, d the pixel's ray; the depth itself where that is the factor
+    std::string pairs;     ///< the position with more digits, a wr_pair3; empty where the planes have no more
+    std::string here;      ///< parameters by which a neighbour is told of the pixel being evaluated ...
+    std::string given;     ///< ... and the arguments for them
+    std::string step;      ///< sets p to a neighbour's position less that of the pixel being evaluated
 };
 
 GeometryText geometry_text(const Emitter& emitter);

@@ -151,7 +151,7 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
     std::string& text = plan.source;
     text += fmt::format(
         "kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *numbers,\n"
-        "    constant const WR_SCALAR *origins, global const float *restrict texels, global const uint *restrict "
+        "    constant const WR_SCALAR *eye_places, global const float *restrict texels, global const uint *restrict "
         "textures,\n"
         "    global const wr_projector *restrict decals, constant const wr_lighting *lighting, constant const wr_light "
         "*lights,\n",

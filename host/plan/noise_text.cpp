@@ -121,10 +121,10 @@ Periods lattice_period(const NoiseLayer& l, int i) {
 }
 
 /// The eye in the lattice of octave `i`, and the octave's frequency; or what floats leave of them.
-Origin octave_origin(const NoiseLayer& l, const NoiseAxes& space, int i, bool low) {
+EyePlace octave_eye_place(const NoiseLayer& l, const NoiseAxes& space, int i, bool low) {
     double frequency = l.frequency;
     for (int octave = 0; octave < i; ++octave) frequency *= l.lacunarity;
-    Origin origin{.period = lattice_period(l, i), .fourth = frequency, .low = low};
+    EyePlace origin{.period = lattice_period(l, i), .fourth = frequency, .low = low};
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t j = 0; j < 3; ++j) origin.axes[k][j] = frequency * space.axes[k][j];
         origin.offset[k] = frequency * space.offset[k];
@@ -132,12 +132,12 @@ Origin octave_origin(const NoiseLayer& l, const NoiseAxes& space, int i, bool lo
     return origin;
 }
 
-/// Adds the origins of all octaves, or what floats leave of them; gives the number of the first.
+/// Adds the eye_places of all octaves, or what floats leave of them; gives the number of the first.
 std::size_t add_lattice(LayerText& at, const NoiseLayer& l, const NoiseOf& of, const NoiseSpace& space, bool low) {
-    const std::size_t first = at.emitter.plan.origins.size();
+    const std::size_t first = at.emitter.plan.eye_places.size();
     for (int i = 0; i < l.octaves; ++i)
-        at.emitter.origin(at.layer, [of, axes = space.axes, i, low](const Layer& layer) {
-            return octave_origin(of(layer), axes(layer), i, low);
+        at.emitter.eye_place(at.layer, [of, axes = space.axes, i, low](const Layer& layer) {
+            return octave_eye_place(of(layer), axes(layer), i, low);
         });
     return first;
 }
@@ -150,11 +150,11 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
     at.section.reads.insert("p");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     at.section.operations += octave_cost(l) * l.octaves;
-    std::string points = fmt::format("{},\n            origins + {}", space.point, 4 * first);
+    std::string points = fmt::format("{},\n            eye_places + {}", space.point, 4 * first);
     if (space.pairs) {
         at.section.reads.insert("p_low");
         at.section.operations += kPairs * l.octaves;
-        points = fmt::format("p, p_low,\n            origins + {}, origins + {}", 4 * first,
+        points = fmt::format("p, p_low,\n            eye_places + {}, eye_places + {}", 4 * first,
                              4 * add_lattice(at, l, of, space, true));
     }
     return fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {});\n", fractal_text(at, l, of, space.pairs),

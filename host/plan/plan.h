@@ -62,7 +62,7 @@ struct Periods : Vec3 {
 
 /// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period_k) when that is
 /// set.
-struct Origin {
+struct EyePlace {
     std::array<Vec3, 3> axes{};
     Vec3 offset{};
     Periods period = 0;
@@ -84,7 +84,7 @@ struct PlannedNumbers {
 };
 /// Evaluates them. Throws Error, naming them, unless they are as many as planned, and finite as floats.
 std::vector<double> numbers_of(const PlannedNumbers& planned, const NumberSource& source);
-using PlannedOrigin = std::function<Origin(const NumberSource&)>;
+using PlannedEyePlace = std::function<EyePlace(const NumberSource&)>;
 
 /// A texture as kernels sample it.
 enum class TexelKind { slope, height, mask, vector, volume, volume_smooth };
@@ -134,7 +134,7 @@ struct Plan {
     std::vector<std::string> inputs, outputs;
     std::vector<PlannedTexture> textures;
     std::vector<PlannedNumbers> numbers;
-    std::vector<PlannedOrigin> origins;
+    std::vector<PlannedEyePlace> eye_places;
     std::vector<PlannedDecal> decals;  ///< in the order of the kernels' buffer
     std::vector<PlannedDecals> tables;
     std::size_t projectors = 0;          ///< rows of all tables together

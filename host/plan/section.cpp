@@ -48,10 +48,9 @@ Precision Emitter::geometry_precision() const { return served(geometry_precision
 std::size_t Emitter::texture(const TextureUse& use, TexelKind kind) {
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {
         const PlannedTexture& known = plan.textures[i];
-        if (known.kind == kind && known.use.file == use.file && known.use.content == use.content &&
-            known.use.wrap == use.wrap && known.use.y_down == use.y_down && known.use.encoding == use.encoding &&
-            known.use.unit == use.unit && known.region == std::array<double, 4>{0, 0, 1, 1})
-            return i;
+        TextureUse same = known.use;
+        same.upscale = use.upscale;  // its texels are told by the kind
+        if (known.kind == kind && same == use && known.region == std::array<double, 4>{0, 0, 1, 1}) return i;
     }
     plan.textures.push_back({use, kind});
     return plan.textures.size() - 1;
@@ -105,11 +104,11 @@ std::string Emitter::vector(const Layer& layer, const std::string& what, std::fu
                        }));
 }
 
-std::size_t Emitter::origin(const Layer& layer, std::function<Origin(const Layer&)> of) {
-    plan.origins.push_back([index = index_of(layer), of = std::move(of)](const NumberSource& source) {
+std::size_t Emitter::eye_place(const Layer& layer, std::function<EyePlace(const Layer&)> of) {
+    plan.eye_places.push_back([index = index_of(layer), of = std::move(of)](const NumberSource& source) {
         return of(source.scene.layers.at(index));
     });
-    return plan.origins.size() - 1;
+    return plan.eye_places.size() - 1;
 }
 
 void Emitter::need(const std::string& who, const std::vector<std::string>& planes) const {

@@ -55,7 +55,7 @@ struct Emitter {
     std::string number(const Layer& layer, const std::string& what, std::function<double(const Layer&)> of);
     std::string vector(const Layer& layer, const std::string& what, std::function<Vec3(const Layer&)> of);
     /// Index of the first of four numbers of a layer that follow the eye.
-    std::size_t origin(const Layer& layer, std::function<Origin(const Layer&)> of);
+    std::size_t eye_place(const Layer& layer, std::function<EyePlace(const Layer&)> of);
     /// The layer's place in the scene.
     std::size_t index_of(const Layer& layer) const { return static_cast<std::size_t>(&layer - scene.layers.data()); }
     const LayerKind& kind(const Layer& layer) const { return kind_of(kinds, layer); }
@@ -82,7 +82,8 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first);
 /// Kernel text that sets `m`, in [0,1], and the planes it reads.
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
-/// Kernel text that declares `wanted`, true at least where one of the layers is; nothing where that may be anywhere.
+/// Kernel text that declares `wanted`: true wherever one of the layers may be, by what planes say of their masks. No
+/// text where a layer has no such mask and may be anywhere.
 std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section);
 /// The mapping that a layer's texture lies by; that of a mask's texture.
 using UvOf = std::function<const UvMapping&(const Layer&)>;
@@ -97,7 +98,7 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
 PlannedKernel emit_tiles(Emitter& emitter, std::string& source);
 /// The kernels that bin decals; gives the one that measures tiles, which reads planes.
 PlannedKernel emit_bins(Emitter& emitter, std::string& source);
-/// Kernel text that sets dp_dx and dp_dy of p and n; `along`: p is that often the pixel's ray.
+/// Kernel text that sets dp_dx and dp_dy of p and n; `along`: the factor r of p = r d, d the pixel's ray.
 std::string derivative_text(const Emitter& emitter, const std::string& along = "wr_along_ray(p, d)");
 /// Kernel text that turns n towards the viewer; `away` where it had to.
 std::string face_viewer_text(const Emitter& emitter);

@@ -42,8 +42,8 @@ public:
     /// The event after which the lists are free again.
     void used_until(const cl::Event& event) { last_use_ = {event}; }
 
-    /// The lists of the rows enqueued last, once they are made; blocks. `lists` gets the list of each tile, from left to
-    /// right and top to bottom: numbers of rows in the order of evaluation.
+    /// The lists of the rows enqueued last, once they are made; blocks. `lists` gets the list of each tile, from left
+    /// to right and top to bottom: numbers of rows in the order of evaluation.
     BinReport read(std::uint32_t width, std::uint32_t rows,
                    std::vector<std::vector<std::uint32_t>>* lists = nullptr) const;
 

@@ -153,10 +153,10 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
     out.frame = camera_constants(camera, size);
     for (const PlannedNumbers& planned : plan.numbers)
         for (const double value : numbers_of(planned, source)) out.numbers.push_back(value);
-    for (const PlannedOrigin& planned : plan.origins) {
-        const Origin origin = planned(source);
+    for (const PlannedEyePlace& planned : plan.eye_places) {
+        const EyePlace origin = planned(source);
         const auto add = [&](double value) {
-            out.origins.push_back(origin.low ? value - static_cast<float>(value) : value);
+            out.eye_places.push_back(origin.low ? value - static_cast<float>(value) : value);
         };
         for (std::size_t k = 0; k < 3; ++k) {
             double value = dot(origin.axes[k], eye) + origin.offset[k];

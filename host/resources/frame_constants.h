@@ -12,8 +12,8 @@ namespace wrinkle {
 /// eye.
 struct FrameConstants {
     wr_camera frame{};
-    std::vector<double> numbers;  ///< of the scene, as planned
-    std::vector<double> origins;  ///< 4 numbers an origin
+    std::vector<double> numbers;     ///< of the scene, as planned
+    std::vector<double> eye_places;  ///< 4 numbers an origin
     std::vector<wr_projector> decals;
     std::vector<wr_projector> projectors;  ///< of all tables, in the order of evaluation
     wr_lighting lighting{};

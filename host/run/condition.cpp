@@ -38,14 +38,14 @@ float moved(float v, bool away) {
 
 }  // namespace
 
-Condition::Condition(const Device& device, const Scene& scene, const Frame& frame)
+Condition::Condition(const Device& device, const Scene& scene, const Frame& frame, TextureStore* store)
     : pass_([&] {
           if (!device.info.fp64)
               throw Error(
                   fmt::format("condition = true needs double precision (cl_khr_fp64), and {} has none; choose another "
                               "--device (see \"wrinkle devices\"), or leave it out",
                               device.info.name));
-          return wrinkle::evaluate(device, normals_only(scene), frame, {.fp64 = true});
+          return wrinkle::evaluate(device, normals_only(scene), frame, {.fp64 = true}, store);
       }()) {}
 
 std::array<std::vector<double>, 3> Condition::normals(const DevicePlanes& inputs, std::vector<cl::Event> wait,

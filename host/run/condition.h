@@ -16,7 +16,7 @@ namespace wrinkle {
 class Condition {
 public:
     /// Throws Error where the device has no double precision.
-    Condition(const Device& device, const Scene& scene, const Frame& frame);
+    Condition(const Device& device, const Scene& scene, const Frame& frame, TextureStore* store = nullptr);
 
     /// Planes that it reads.
     const std::vector<std::string>& inputs() const { return pass_.inputs(); }

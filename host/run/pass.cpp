@@ -64,9 +64,9 @@ void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::strin
 }
 
 Pass make_pass(const char* what, const Device& device, const Scene& scene, const Frame& frame,
-               const PassOptions& options, const PlanOptions& plan_options) {
-    return guarded(what,
-                   [&] { return Pass(std::make_unique<Pass::Impl>(device, scene, frame, options, plan_options)); });
+               const PassOptions& options, const PlanOptions& plan_options, TextureStore* store = nullptr) {
+    return guarded(
+        what, [&] { return Pass(std::make_unique<Pass::Impl>(device, scene, frame, options, plan_options, store)); });
 }
 
 }  // namespace
@@ -111,8 +111,13 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const R
 }
 
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options) {
+    return evaluate(device, scene, frame, options, nullptr);
+}
+
+Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
+              TextureStore* store) {
     return make_pass("evaluate", device, scene, frame, options,
-                     {.split = options.split, .precision = options.precision});
+                     {.split = options.split, .precision = options.precision}, store);
 }
 
 Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,

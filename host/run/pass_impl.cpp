@@ -8,7 +8,6 @@
 
 #include "layers/kinds.h"
 #include "resources/frame_constants.h"
-#include "resources/texture_heap.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -51,12 +50,6 @@ cl::Buffer structs(const Device& device, const std::vector<Struct>& values, bool
     return reals(device, reinterpret_cast<const double*>(list.data()), list.size() * members, fp64);
 }
 
-template <class T>
-cl::Buffer table(const Device& device, std::vector<T> values) {
-    if (values.empty()) values.resize(1);
-    return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data()};
-}
-
 const cl::Buffer& plane(const DevicePlanes& planes, const std::string& name, std::size_t bytes) {
     const auto found = planes.find(name);
     if (found == planes.end()) throw Error(fmt::format("no buffer for the plane \"{}\"", name));
@@ -89,7 +82,7 @@ Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options
 }
 
 Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const PassOptions& wanted,
-                 const PlanOptions& plan_options)
+                 const PlanOptions& plan_options, TextureStore* store)
     : device(on),
       scene(of),
       cryptomatte(shape.cryptomatte),
@@ -102,10 +95,7 @@ Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const Pa
     if (options.fp64 && !device.info.fp64)
         throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
     const auto textures_start = Clock::now();
-    TextureHeap heap = load_textures(plan.textures);
-    check_fits(heap, device.info);
-    texels = table(device, std::move(heap.texels));
-    textures = table(device, std::move(heap.table));
+    textures = store ? store->get(plan.textures) : TextureStore(device).get(plan.textures);
     texture_seconds = seconds_since(textures_start);
 
     const auto build_start = Clock::now();
@@ -135,7 +125,7 @@ void Pass::Impl::upload_constants() {
     const bool wide = options.fp64;
     frame = structs(device, std::vector{constants.frame}, wide);
     numbers = reals(device, constants.numbers.data(), constants.numbers.size(), wide);
-    origins = reals(device, constants.origins.data(), constants.origins.size(), wide);
+    eye_places = reals(device, constants.eye_places.data(), constants.eye_places.size(), wide);
     decals = structs(device, constants.decals, wide);
     light_setup = structs(device, std::vector{constants.lighting}, wide);
     lights = structs(device, constants.lights, wide);
@@ -168,7 +158,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         cl::Kernel& kernel = kernels[k];
         cl_uint i = 0;
         for (const cl::Buffer* buffer :
-             {&frame, &numbers, &origins, &texels, &textures, &decals, &light_setup, &lights})
+             {&frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
         if (plan.tiles) bins.set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));

@@ -5,6 +5,7 @@
 #include "device/program.h"
 #include "plan/plan.h"
 #include "resources/decal_bins.h"
+#include "resources/texture_store.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
@@ -21,7 +22,8 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     PassOptions options;
     BuiltProgram built;
     std::vector<cl::Kernel> kernels;
-    cl::Buffer texels, textures, frame, numbers, origins, decals, light_setup, lights;
+    std::shared_ptr<const DeviceTextures> textures;
+    cl::Buffer frame, numbers, eye_places, decals, light_setup, lights;
     DecalBins bins;                   ///< of the plan's tables of decals, if it has any
     std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
     std::vector<std::string> scratch_names;
@@ -30,8 +32,9 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     bool saved = false;
     bool warm = false;  ///< the kernels ran before
 
+    /// Textures come from the store, if there is one.
     Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
-         const PlanOptions& plan_options);
+         const PlanOptions& plan_options, TextureStore* store = nullptr);
 
     /// Work-items of a band: `lanes` pixels each, one after another from the band's first on, never in blocks.
     struct Items {
@@ -49,6 +52,10 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     void save();
     std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
 };
+
+/// wrinkle::evaluate with textures from a store, for those who make several passes of a scene.
+Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
+              TextureStore* store);
 
 /// Whether a pass for one frame serves another, once it has its camera.
 bool same_shape(const Frame& a, const Frame& b);

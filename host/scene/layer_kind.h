@@ -20,7 +20,7 @@ enum class CameraKind : int;
 
 /// A use of a kind of layer, and the roles of a G-buffer that it needs beyond a normal, a geometry and a camera.
 struct LayerUse {
-    const char* how;                     ///< "frame = \"tangents\""; empty: as it is
+    const char* how;                     ///< "tangents = \"passes\""; empty: as it is
     std::span<const char* const> roles;  ///< "uv"; of "tangent_sign or bitangent" one will do
 };
 

@@ -18,8 +18,8 @@ namespace {
 /// Makes the passes of a run, and keeps the last one while frames fit it.
 class Passes {
 public:
-    Passes(const Device& device, const Scene& scene, PhaseClock& clock, RenderReport& report)
-        : device_(device), scene_(scene), clock_(clock), report_(report) {}
+    Passes(const Device& device, const Scene& scene, TextureStore& store, PhaseClock& clock, RenderReport& report)
+        : device_(device), scene_(scene), store_(store), clock_(clock), report_(report) {}
 
     Pass& get(const Frame& frame, const PassOptions& options) {
         if (pass_ && same_shape(frame, built_for_) && options.fp64 == built_with_.fp64 &&
@@ -27,7 +27,8 @@ public:
             pass_->set_camera(frame.camera);
             return *pass_;
         }
-        pass_.emplace(clock_.measure(PhaseClock::build, [&] { return evaluate(device_, scene_, frame, options); }));
+        pass_.emplace(
+            clock_.measure(PhaseClock::build, [&] { return evaluate(device_, scene_, frame, options, &store_); }));
         report_.upload += pass_->impl().texture_seconds;
         report_.cache_hit = pass_->impl().built.source == BuildSource::disk;
         built_for_ = frame, built_with_ = options;
@@ -37,6 +38,7 @@ public:
 private:
     const Device& device_;
     const Scene& scene_;
+    TextureStore& store_;
     PhaseClock& clock_;
     RenderReport& report_;
     std::optional<Pass> pass_;
@@ -67,7 +69,8 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
     Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
     if (options.lanes != 0) device.info.lanes = options.lanes;
-    Passes passes(device, scene, clock, report);
+    TextureStore store(device);
+    Passes passes(device, scene, store, clock, report);
     std::optional<KeptBudget> kept;
     std::optional<Condition> condition;
     Frame condition_for;
@@ -87,11 +90,12 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
             kept.emplace(clock.measure(PhaseClock::build, [&] {
                 return KeptBudget{Budget(scene, camera_kind(frame.camera, frame.size), costs_of(device.info)),
-                                  ErrorSample(device, scene, frame, scene.budget)};
+                                  ErrorSample(device, scene, frame, scene.budget, &store)};
             }));
         if (scene.output.condition) {
             if (!condition || !same_shape(frame, condition_for))
-                condition.emplace(clock.measure(PhaseClock::build, [&] { return Condition(device, scene, frame); }));
+                condition.emplace(
+                    clock.measure(PhaseClock::build, [&] { return Condition(device, scene, frame, &store); }));
             condition_for = frame;
             condition->set_camera(frame.camera);
         }

@@ -38,7 +38,7 @@ struct NormalMapLayer {
     static constexpr const char* kind = "normal_map";
     TextureUse texture{.content = Content::normal};
     UvMapping uv{};
-    TangentSource frame = TangentSource::automatic;
+    TangentSource tangents = TangentSource::automatic;
     Combine combine = Combine::surface_gradient;
 };
 
@@ -143,12 +143,12 @@ struct ConstantLayer {
     Vec3 gradient{};
 };
 
-/// A bump of the user's own: a function in OpenCL C, over the types of kernels/ (kernels/sources/dual.clh has arithmetic
-/// that differentiates). It is native code on a CPU: run nobody's but who you trust.
+/// A bump of the user's own: a function in OpenCL C, over the types of kernels/ (kernels/sources/dual.clh has
+/// arithmetic that differentiates). It is native code on a CPU: run nobody's but who you trust.
 struct KernelLayer {
     static constexpr const char* kind = "kernel";
     std::filesystem::path file{};
-    std::string function{};  ///< wr_dual FUNCTION(wr_bump_point at, FUNCTION_parameters k)
+    std::string function{};                      ///< wr_dual FUNCTION(wr_bump_point at, FUNCTION_parameters k)
     std::map<std::string, double> parameters{};  ///< members of k, in the order of their names
     bool over_uv = false;           ///< its gradient is along s and t of `uv`, instead of x, y and z of the world
     std::optional<UvMapping> uv{};  ///< gives it texture coordinates

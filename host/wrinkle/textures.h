@@ -31,6 +31,7 @@ struct TextureUse {
     bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals and slopes
     Encoding encoding = Encoding::automatic;  ///< slopes only
     SlopeUnit unit = SlopeUnit::texel;        ///< slopes only
+    bool operator==(const TextureUse&) const = default;
 };
 
 enum class UvSource { aov, planar };

@@ -63,7 +63,7 @@ TEST(Info, SaysWhatEachUseLacks) {
     EXPECT_FALSE(info.camera->residual);
     EXPECT_EQ(use_of(info, "normal_map").missing, Names{"uv"});
     EXPECT_EQ(use_of(info, "object_normal").missing, Names{"uv"});
-    EXPECT_EQ(use_of(info, "normal_map with frame = \"tangents\"").missing,
+    EXPECT_EQ(use_of(info, "normal_map with tangents = \"passes\"").missing,
               (Names{"uv", "tangent", "tangent_sign or bitangent"}));
     EXPECT_TRUE(use_of(info, "triplanar").missing.empty());
     EXPECT_EQ(use_of(info, "lighting").defaults, Names{"albedo"});

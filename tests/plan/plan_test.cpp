@@ -14,7 +14,7 @@ TEST(Plan, OfNoLayersOnlyDecodesAndWrites) {
     for (const char* part :
          {"dp_dx", "in_uv", "in_object", "wr_fractal", "wr_texture", "wr_light_surface", "wr_projector_"})
         EXPECT_FALSE(mentions(plan, part)) << part;
-    EXPECT_TRUE(plan.textures.empty() && plan.origins.empty() && plan.decals.empty());
+    EXPECT_TRUE(plan.textures.empty() && plan.eye_places.empty() && plan.decals.empty());
     EXPECT_FALSE(plan.neighbours);
     EXPECT_EQ(plan.bytes, 4.0 * (4 + 3));
 }
@@ -36,15 +36,15 @@ TEST(Plan, OriginsRepeatAsTheirLayersDo) {
     tiles.tile = 4;
     const Plan plan = make_plan(
         scene_of({planar, clamped, layer(tiles), layer(NoiseLayer{.frequency = 3, .octaves = 2})}), everything());
-    ASSERT_EQ(plan.origins.size(), 5u);
-    EXPECT_EQ(plan.origins[0].period, Periods(1));
-    EXPECT_EQ(plan.origins[0].axes[1], (Vec3{0, 4, 0}));
-    EXPECT_EQ(plan.origins[0].offset, (Vec3{0.25, 0.5, 0}));
-    EXPECT_EQ(plan.origins[1].period, Periods(0)) << "a clamped coordinate must not be reduced";
-    EXPECT_EQ(plan.origins[2].axes[2], (Vec3{0, 0, 0.25}));
-    EXPECT_EQ(plan.origins[3].axes[0], (Vec3{3, 0, 0}));
-    EXPECT_EQ(plan.origins[4].axes[0], (Vec3{6, 0, 0}));
-    EXPECT_EQ(plan.origins[3].period, Periods(256));
+    ASSERT_EQ(plan.eye_places.size(), 5u);
+    EXPECT_EQ(plan.eye_places[0].period, Periods(1));
+    EXPECT_EQ(plan.eye_places[0].axes[1], (Vec3{0, 4, 0}));
+    EXPECT_EQ(plan.eye_places[0].offset, (Vec3{0.25, 0.5, 0}));
+    EXPECT_EQ(plan.eye_places[1].period, Periods(0)) << "a clamped coordinate must not be reduced";
+    EXPECT_EQ(plan.eye_places[2].axes[2], (Vec3{0, 0, 0.25}));
+    EXPECT_EQ(plan.eye_places[3].axes[0], (Vec3{3, 0, 0}));
+    EXPECT_EQ(plan.eye_places[4].axes[0], (Vec3{6, 0, 0}));
+    EXPECT_EQ(plan.eye_places[3].period, Periods(256));
 }
 
 TEST(Plan, DerivesTextureCoordinatesWhereMasksWantThem) {

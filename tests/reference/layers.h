@@ -40,7 +40,7 @@ using LayerFunction = std::function<Contribution<T>(const Surfel<T>&)>;
 /// Whether a layer uses the renderer's tangents.
 inline bool uses_vertex_frame(const NormalMapLayer& layer, bool planes) {
     const bool fits = layer.uv.source == UvSource::aov && layer.uv.rotation == 0;
-    return planes && fits && layer.frame != TangentSource::derived;
+    return planes && fits && layer.tangents != TangentSource::derived;
 }
 
 template <class T>
@@ -134,8 +134,11 @@ LayerFunction<T> make_layer(const DecalLayer& layer, bool footprint, SceneTextur
     const DecalBox<T> box = decal_box(from_array<T>(layer.center), from_array<T>(layer.axis_x),
                                       from_array<T>(layer.axis_y), from_array<T>(layer.half_size));
     return [=, texture = textures.slopes(use, use.content)](const Surfel<T>& s) -> Contribution<T> {
-        const T weight = decal_box_weight(decal_coordinates(box, s.position - box.center), T(layer.falloff)) *
-                         decal_angle_fade(dot(s.normal, box.z), T(layer.angle_fade[0]), T(layer.angle_fade[1]));
+        const T along = dot(s.normal, box.z), facing = layer.two_sided ? std::abs(along) : along;
+        const T weight = facing > 0
+                             ? decal_box_weight(decal_coordinates(box, s.position - box.center), T(layer.falloff)) *
+                                   decal_angle_fade(facing, T(layer.angle_fade[0]), T(layer.angle_fade[1]))
+                             : T(0);
         if (weight == 0) return {};
         const auto st = [&](Vec<T> offset) {
             const Vec<T> q = decal_coordinates(box, offset);

@@ -38,6 +38,41 @@ TEST(DecalTables, ReplaceByPriorityWhateverTheirOrder) {
     expect_within("replacing decals", normal_error(got, Truth(frame, scene)), {2e-5, 1e-3, 2e-2}, "degrees");
 }
 
+/// The same boxes, as layers and as rows of a table.
+std::pair<Scene, Scene> as_layers_and_rows(const std::vector<Projector>& rows) {
+    Scene layers;
+    for (const Projector& row : rows) {
+        DecalLayer decal;
+        decal.texture = {.file = data_folder / "textures/seal_height.png", .wrap = Wrap::clamp};
+        decal.center = row.center, decal.axis_x = row.axis_x, decal.axis_y = row.axis_y;
+        decal.half_size = row.half_size, decal.falloff = row.falloff[0];
+        decal.angle_fade = row.angle_fade, decal.two_sided = row.two_sided;
+        Layer& layer = layers.layers.emplace_back();
+        layer.name = fmt::format("decal {}", layers.layers.size());
+        layer.scale = row.scale;
+        layer.bump = decal;
+    }
+    return {layers, table_scene(rows)};
+}
+
+/// From in front and from behind, one-sided and two-sided: the first pixel whose normals differ would tell them apart.
+TEST(DecalTables, AgreeWithTheSameDecalsAsLayersFromBothSides) {
+    const HostFrame frame = small_frame();
+    for (const bool two_sided : {false, true})
+        for (const bool behind : {false, true}) {
+            std::vector<Projector> rows(1);
+            rows[0].center = {0, 0, 0}, rows[0].half_size = {3, 3, 3}, rows[0].scale = 0.1;
+            rows[0].angle_fade = {0.1, 0.4}, rows[0].two_sided = two_sided;
+            if (behind) rows[0].axis_y = {0, -1, 0};  // axis_z points down: the ground faces away
+            const auto [layers, table] = as_layers_and_rows(rows);
+            const Pixels a = evaluate_on(frame, layers), b = evaluate_on(frame, table);
+            EXPECT_LT(largest_difference(a, b), 3e-7) << two_sided << behind;
+            const std::size_t bumped = bumped_pixels(Truth(frame, table));
+            EXPECT_GT(bumped, 50u) << two_sided << behind;
+            expect_within("a decal from a side", normal_error(a, Truth(frame, layers)), {1e-5, 1e-3, 1e-2}, "degrees");
+        }
+}
+
 TEST(DecalTables, AgreeWithTheSameDecalsAsLayers) {
     const HostFrame frame = small_frame();
     std::vector<Projector> rows = on_surfaces(frame, 12, 0.3, 1, 23);

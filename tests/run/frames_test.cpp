@@ -175,7 +175,7 @@ TEST(Frames, TangentsOfTheRenderer) {
     auto& weave = std::get<NormalMapLayer>(scene.layers[0].bump);
     weave.uv.scale = {2, -3};
     expect_agreement("tangents, found", frame, scene);
-    weave.frame = TangentSource::planes;
+    weave.tangents = TangentSource::planes;
     expect_agreement("tangents, asked for", frame, scene);
     EXPECT_EQ(evaluate_on(frame, scene).at("marked")[44], Marked::no_uv_derivative);
     EXPECT_EQ(evaluate_on(frame, scene).at("marked")[46], 0);
@@ -186,7 +186,7 @@ TEST(Frames, TangentsOfTheRenderer) {
     const Truth truth(frame, staged);
     expect_within("tangents after a resolve", normal_error(evaluate_on(frame, staged), truth), {1e-4, 1e-3, 3e-3},
                   "degrees");
-    weave.frame = TangentSource::derived;
+    weave.tangents = TangentSource::derived;
     expect_agreement("tangents, ignored", frame, scene);
 }
 
@@ -195,7 +195,7 @@ TEST(Frames, BitangentsOfTheRenderer) {
     frame.remove("tangent_sign");
     for (const char axis : {'x', 'y', 'z'}) frame.add(std::string("bitangent.") + axis, axis == 'y' ? 0.7f : 0.2f);
     Scene scene = small_scene();
-    std::get<NormalMapLayer>(scene.layers[0].bump).frame = TangentSource::planes;
+    std::get<NormalMapLayer>(scene.layers[0].bump).tangents = TangentSource::planes;
     expect_agreement("bitangents", frame, scene);
     frame.remove("bitangent.x");
     try {

@@ -116,12 +116,12 @@ TEST_F(BadLayers, FramesOfNormalMaps) {
     const auto normal_map = [](const std::string& rest) {
         return layer("kind = \"normal_map\"\ntexture = \"textures/wall.png\"\n" + rest);
     };
-    expect_problem_with(normal_map("frame = \"tangent\"\n"), 8,
-                        {"did you mean \"tangents\"?", "\"auto\", \"derived\", \"tangents\""});
-    expect_problem_with(normal_map("frame = \"tangents\"\nuv = { rotation = 90 }\n"), 8,
-                        {"\"frame\"", "belongs to the UV pass as it is: uv must not be planar or turn"});
-    expect_problem_with(normal_map("frame = \"tangents\"\nuv = { source = \"planar\" }\n"), 8,
-                        {"\"frame\"", "UV pass"});
+    expect_problem_with(normal_map("tangents = \"passed\"\n"), 8,
+                        {"did you mean \"passes\"?", "\"auto\", \"derived\", \"passes\""});
+    expect_problem_with(normal_map("tangents = \"passes\"\nuv = { rotation = 90 }\n"), 8,
+                        {"\"tangents\"", "belong to the UV pass as it is: uv must not be planar or turn"});
+    expect_problem_with(normal_map("tangents = \"passes\"\nuv = { source = \"planar\" }\n"), 8,
+                        {"\"tangents\"", "UV pass"});
 }
 
 TEST_F(BadLayers, KeysWithoutEffect) {

@@ -129,7 +129,7 @@ texture = "textures/wall.png"
 [[layer]]
 kind = "normal_map"
 texture = "textures/wall.png"
-frame = "tangents"
+tangents = "passes"
 )");
     const auto& slopes = std::get<DerivativeMapLayer>(scene.layers.at(0).bump);
     EXPECT_EQ(slopes.texture.content, Content::slope);
@@ -140,7 +140,7 @@ frame = "tangents"
     EXPECT_FALSE(plain.texture.y_down || plain.auto_scale);
     EXPECT_EQ(plain.texture.encoding, Encoding::automatic);
     EXPECT_EQ(plain.texture.unit, SlopeUnit::texel);
-    EXPECT_EQ(std::get<NormalMapLayer>(scene.layers.at(2).bump).frame, TangentSource::planes);
+    EXPECT_EQ(std::get<NormalMapLayer>(scene.layers.at(2).bump).tangents, TangentSource::planes);
 }
 
 TEST_F(GoodLayers, FractalsOfSimplexNoise) {

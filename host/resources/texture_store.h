@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "plan/plan.h"
+#include "wrinkle/device.h"
+
+namespace wrinkle {
+
+/// Textures and volumes of a plan on a device, as kernels take them.
+struct DeviceTextures {
+    cl::Buffer texels, table;
+};
+
+/// Loads textures and volumes once for all passes of a run that want the same ones: a pass, the one in double that it
+/// is measured against, the one that a budget raises it to.
+class TextureStore {
+public:
+    explicit TextureStore(const Device& device) : device_(device) {}
+
+    /// They stay on the device while the store, or somebody else, holds them. Throws Error naming the layer whose file
+    /// cannot be used, or the sizes where they do not fit into one buffer.
+    std::shared_ptr<const DeviceTextures> get(const std::vector<PlannedTexture>& wanted);
+
+    /// How often files were read.
+    std::size_t loads() const { return entries_.size(); }
+
+private:
+    struct Entry {
+        std::vector<PlannedTexture> planned;
+        std::shared_ptr<const DeviceTextures> textures;
+    };
+
+    Device device_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace wrinkle
