@@ -20,8 +20,7 @@ void check_channels(const OIIO::ImageSpec& spec, ImageUse use, const std::string
     if (use == ImageUse::object_normal)
         throw Error(fmt::format("{}: has {} channel{}; an object-space normal map needs 3 (x, y, z)", name, n,
                                 n == 1 ? "" : "s"));
-    throw Error(fmt::format("{}: has {} channel{}{}; {}", name, n, n == 1 ? "" : "s",
-                            alpha ? " (grey and alpha)" : "",
+    throw Error(fmt::format("{}: has {} channel{}{}; {}", name, n, n == 1 ? "" : "s", alpha ? " (grey and alpha)" : "",
                             use == ImageUse::scalar ? "a height or mask image needs 1, or 3 and more"
                                                     : "a normal map needs 3 (x, y, z) or 2 (x, y); is it a height map? "
                                                       "then use kind = \"height_map\" or content = \"height\""));
@@ -93,8 +92,7 @@ struct SlopeLayout {
     bool bumpslopes = false;  ///< written by maketx --bumpslopes, with heights in channel 0
 };
 
-SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUnit unit,
-                         const std::string& name) {
+SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUnit unit, const std::string& name) {
     const auto width = static_cast<float>(spec.width), height = static_cast<float>(spec.height);
     const auto channel = [&](const char* channel_name) {
         return static_cast<int>(std::ranges::find(spec.channelnames, channel_name) - spec.channelnames.begin());
