@@ -96,12 +96,6 @@ struct PlannedTexture {
     std::string layer{};                       ///< label of the first layer that uses it, for messages
 };
 
-/// The texture of a projector.
-struct ProjectedImage {
-    std::uint32_t texture = 0;  ///< number in the texture table
-    bool height = false;        ///< slopes are per unit of texture, not unitless
-};
-
 /// A projector that every pixel asks, as a layer of its own.
 struct PlannedDecal {
     std::size_t layer = 0;  ///< of the scene

@@ -131,7 +131,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     }
     heap.table[words + WR_TEXTURE_LEVELS] = count;
     if (heap.texels.size() > (std::size_t{1} << 31) - 1)
-        throw Error(fmt::format("{}: the textures of this scene exceed 8 GiB together", planned.use.file.string()));
+        throw Error(fmt::format("{}: the textures exceed 8 GiB together", planned.use.file.string()));
 }
 
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
@@ -156,7 +156,7 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
             throw Error(fmt::format("{}: {}", texture.layer, error.what()));
         }
     }
-    heap.texels.resize(heap.texels.size() + 4);  // the last pair of a row may be read as four floats
+    heap.texels.resize(heap.texels.size() + kTexelsAfterTheLast);
     return heap;
 }
 

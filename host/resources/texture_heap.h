@@ -15,6 +15,9 @@ struct TextureHeap {
     std::vector<std::uint32_t> table;
 };
 
+/// Floats after all texels: the last pair of a row may be read as four floats.
+constexpr std::size_t kTexelsAfterTheLast = 4;
+
 /// Adds one image as the plan's texels: heights and masks as they are; heights for the smooth upscale as slopes by the
 /// Sobel operator per level [Mik20 eq. 20, 21]; tangent normals as slopes per texel [listing 2], mip-mapped as slopes;
 /// slopes as they are; object-space normals as vectors of four floats.

@@ -70,6 +70,12 @@ struct Projector {
     std::uint32_t line = 0;          ///< of the table's file, for messages; 0 in files without lines
 };
 
+/// The image of a projector on the device.
+struct ProjectedImage {
+    std::uint32_t texture = 0;  ///< number in the texture table
+    bool height = false;  ///< it holds heights, whose slopes are per unit of texture; else slopes of metres over metres
+};
+
 /// Many decals. Those that add are independent of order; one that replaces takes g to g + (d - g) weight of what the
 /// rows of the same table before it made.
 struct DecalsLayer {
