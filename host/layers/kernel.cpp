@@ -130,10 +130,14 @@ std::string emit(LayerText& at) {
            at.slopes("scale_dependent", "c.dx, c.dy, slope");
 }
 
+/// Every function has costs of its own.
+CostKind cost(const Layer& layer) { return {"kernel " + kernel_of(layer).function}; }
+
 }  // namespace
 
 const LayerKind& layers::kernel() {
-    static constexpr LayerKind row{.name = KernelLayer::kind, .read = read, .emit = emit};
+    static constexpr LayerKind row{
+        .name = KernelLayer::kind, .read = read, .emit = emit, .users_own = true, .cost = cost};
     return row;
 }
 

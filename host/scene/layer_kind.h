@@ -57,6 +57,7 @@ struct LayerKind {
     std::span<const LayerUse> uses{};  ///< none: as it is, without further roles
     bool ends_stage = false;           ///< it is no bump: the surface made so far is what later layers bump
     bool without_normal = false;       ///< it is a gradient in space, good without any normal (accumulate_decals)
+    bool users_own = false;            ///< the user wrote what it computes: only measuring tells what that costs
     bool binned = false;               ///< it has a table of projectors that are binned to tiles of the frame
 
     /// The variants in float that layer `index` of a scene has, from cheap to exact; null: standard only.

@@ -43,7 +43,7 @@ inline long double dents_height(const Parameters& k, const long double (&at)[3],
 }
 
 /// The same round bowl in every cell of the texture coordinates.
-inline long double dents_over_uv_height(const Parameters& k, const long double (&st)[3], long double) {
+inline long double bowls_height(const Parameters& k, const long double (&st)[3], long double) {
     const long double radius = k.at("radius");
     const long double u = st[0] * k.at("columns"), v = st[1] * k.at("rows");
     const long double du = u - std::floor(u) - 0.5L, dv = v - std::floor(v) - 0.5L;
@@ -53,7 +53,7 @@ inline long double dents_over_uv_height(const Parameters& k, const long double (
 
 inline UserHeight user_height(const std::string& function) {
     if (function == "dents") return dents_height;
-    if (function == "dents_over_uv") return dents_over_uv_height;
+    if (function == "bowls") return bowls_height;
     throw std::invalid_argument("the reference has no function \"" + function + "\"");
 }
 
