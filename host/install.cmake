@@ -17,7 +17,8 @@ install(
   PATTERN "*.cl"
   PATTERN "*.clh"
   PATTERN "*.h"
-  PATTERN "*.json")
+  PATTERN "*.json"
+  PATTERN "README.md")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(TARGET wrinkle_cli)

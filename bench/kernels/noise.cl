@@ -46,26 +46,26 @@ wr_fn wr_real wr_hashed_noise(wr_vec3 p)
 
 // The volatile vector forces the stack to be aligned, as it is in fused kernels. Without it, LLVM may place values that
 // do not fit into registers across two cache lines, depending on the thread, and the kernel takes up to a fifth longer.
-#define WR_NOISE_KERNEL(name, octave)                                                                        \
-    kernel void name(global const float *restrict in_x, global const float *restrict in_y,                   \
-                     global const float *restrict in_z, global WR_SCALAR *restrict out_value,                \
-                     global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,                     \
-                     global WR_SCALAR *restrict out_z, uint pixels)                                          \
-    {                                                                                                        \
-        size_t at = get_global_id(0) * WR_LANES;                                                             \
-        if (at >= pixels) return;                                                                            \
-        volatile wr_real on_the_stack = 0;                                                                      \
-        wr_vec3 p = wr_v3(wr_load(in_x, at), wr_load(in_y, at), wr_load(in_z, at));                             \
-        wr_real value = 0;                                                                                      \
-        wr_vec3 gradient = wr_zero3();                                                                          \
-        for (int k = 0; k < WR_OCTAVES; ++k) {                                                               \
-            wr_vec3 q = wr_octave(p, k);                                                                        \
-            octave                                                                                           \
-        }                                                                                                    \
-        wr_store(value, out_value, at);                                                                      \
-        wr_store(gradient.x, out_x, at);                                                                     \
-        wr_store(gradient.y, out_y, at);                                                                     \
-        wr_store(gradient.z, out_z, at);                                                                     \
+#define WR_NOISE_KERNEL(name, octave)                                                               \
+    kernel void name(global const float *restrict in_x, global const float *restrict in_y,          \
+                     global const float *restrict in_z, global WR_SCALAR *restrict out_value,       \
+                     global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,            \
+                     global WR_SCALAR *restrict out_z, uint pixels)                                 \
+    {                                                                                               \
+        size_t at = get_global_id(0) * WR_LANES;                                                    \
+        if (at >= pixels) return;                                                                   \
+        volatile wr_real on_the_stack = 0;                                                          \
+        wr_vec3 p = wr_v3(wr_load(in_x, at), wr_load(in_y, at), wr_load(in_z, at));                 \
+        wr_real value = 0;                                                                          \
+        wr_vec3 gradient = wr_zero3();                                                              \
+        for (int k = 0; k < WR_OCTAVES; ++k) {                                                      \
+            wr_vec3 q = wr_octave(p, k);                                                            \
+            octave                                                                                  \
+        }                                                                                           \
+        wr_store(value, out_value, at);                                                             \
+        wr_store(gradient.x, out_x, at);                                                            \
+        wr_store(gradient.y, out_y, at);                                                            \
+        wr_store(gradient.z, out_z, at);                                                            \
     }
 
 WR_NOISE_KERNEL(wr_value_and_gradient, wr_field f = wr_perlin_noise(wr_lattice_at(q)); value += f.value;

@@ -31,6 +31,8 @@ PERMUTATION = [
 HASH_HEADER = """\
 // Tables of Perlin's 2002 reference noise, packed so that the eight corners of a cell need 7 loads instead of 14 for
 // the hashes, and no arithmetic to choose gradients. data/make/noise_table.py prints this file.
+#ifndef WR_SOURCES_NOISE_TABLE_CLH
+#define WR_SOURCES_NOISE_TABLE_CLH
 
 // p[i] in the low byte, p[i + 1] in the high one.
 constant ushort wr_perlin_hash[256] = {"""
@@ -86,3 +88,4 @@ for h in range(16):
 print(GRADIENT_HEADER)
 print_rows([f"WR_PERLIN_G{h & 15:X}" for h in p], 8)
 print("};")
+print("\n#endif")

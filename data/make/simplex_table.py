@@ -14,6 +14,10 @@ HEADER = """\
 // Gradients of psrdnoise [Gustavson and McEwan 2021], a row of 8 a hash: p, 0, then q, 0; turned by the angle a the
 // gradient is p cos(a) + q sin(a). From a table they keep their digits: cosines of hashes times constants in float lose
 // 4e-5. data/make/simplex_table.py prints this file.
+#ifndef WR_SOURCES_SIMPLEX_TABLE_CLH
+#define WR_SOURCES_SIMPLEX_TABLE_CLH
+
+#include "lanes.clh"
 
 constant WR_SCALAR wr_simplex_gradient[289 * 8] = {"""
 
@@ -32,3 +36,4 @@ for h in range(289):
     numbers = [f"WR_R({v:.12f})" if v else "0" for v in row(h)]
     print("    " + ", ".join(numbers[:4]) + ",\n    " + ", ".join(numbers[4:]) + ",")
 print("};")
+print("\n#endif")

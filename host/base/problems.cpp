@@ -16,8 +16,10 @@ void Problems::throw_if_any() {
     if (found_.empty()) return;
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::string text;
-    for (const auto& [line, problem] : found_)
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", location(line), problem);
+    for (const auto& [line, problem] : found_) {
+        const std::string place = location(line);
+        text += fmt::format("{}{}{}{}", text.empty() ? "" : "\n", place, place.empty() ? "" : ": ", problem);
+    }
     throw Error(text);
 }
 

@@ -7,7 +7,7 @@
 
 namespace wrinkle {
 
-/// What is wrong with a file, collected so that all of it is told at once.
+/// What is wrong with a file, collected so that all of it is told at once; or with what no file holds, without a name.
 class Problems {
 public:
     explicit Problems(std::string file_name) : file_name_(std::move(file_name)) {}

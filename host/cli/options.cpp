@@ -1,8 +1,8 @@
 #include "cli/options.h"
 
-#include <limits>
+#include <fmt/format.h>
 
-#include "cli/checks.h"
+#include <limits>
 
 namespace wrinkle::cli {
 
@@ -16,7 +16,12 @@ void add_lanes_option(CLI::App& command, int& lanes) {
         .add_option("--lanes", lanes,
                     "pixels a work-item evaluates: 1, 4, 8 or 16; without it what the device is best at")
         ->type_name("N")
-        ->check(one_of({"1", "4", "8", "16"}));
+        ->check(CLI::Validator(
+            [](std::string& text) -> std::string {
+                if (text == "1" || text == "4" || text == "8" || text == "16") return {};
+                return fmt::format("\"{}\" is given; expected 1, 4, 8 or 16", text);
+            },
+            ""));
 }
 
 Device open_device(const std::string& device, int lanes) {

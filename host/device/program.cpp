@@ -15,14 +15,31 @@ std::string build_flags(const BuildOptions& options) {
     return fmt::format("-cl-std=CL1.2 -D WR_LANES={}{}", options.lanes, options.fp64 ? " -D WR_FP64" : "");
 }
 
+namespace {
+
+/// What is compiled in for the device beyond the options, whatever the program.
+std::string device_flags(const Device& device) {
+    std::string flags;
+    if (device.info.platform == "Portable Computing Language") flags += " -D WR_POCL_BUILTINS";
+    // Without it OpenCL lets 1 / x be wrong by 2.5 ulp and sqrt by 3, and the documented errors are for less.
+    if ((device.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
+        flags += " -cl-fp32-correctly-rounded-divide-sqrt";
+    return flags;
+}
+
+}  // namespace
+
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options) {
     const std::string source = expand_includes(text, "evaluate.cl");
-    const std::string flags = build_flags(options);
+    const std::string flags = build_flags(options) + device_flags(device);
     BuiltProgram built;
-    built.cache_file = cache_file(
-        fmt::format("{}\n{}\n{}\n{}\n{}", flags, device.info.name, device.info.version, device.info.driver, source));
+    const cl::Platform platform(device.device.getInfo<CL_DEVICE_PLATFORM>());
+    built.key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", flags, platform.getInfo<CL_PLATFORM_NAME>(),
+                            platform.getInfo<CL_PLATFORM_VERSION>(), device.info.name, device.info.version,
+                            device.info.driver, source);
+    built.cache_file = cache_file(built.key);
     if (!built.cache_file.empty()) {
-        if (std::vector<unsigned char> binary = read_program(built.cache_file); !binary.empty()) {
+        if (std::vector<unsigned char> binary = read_program(built.cache_file, built.key); !binary.empty()) {
             try {
                 built.program = cl::Program(device.context, {device.device}, cl::Program::Binaries{std::move(binary)});
                 built.program.build(device.device, flags.c_str());
@@ -49,7 +66,7 @@ void save_program(const BuiltProgram& built) {
     try {
         const auto binaries = built.program.getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.empty() || binaries.front().empty()) return;
-        write_program(built.cache_file, binaries.front());
+        write_program(built.cache_file, built.key, binaries.front());
     } catch (const cl::Error&) {
         // a driver without binaries: the next start compiles again
     }

@@ -14,6 +14,7 @@ struct BuiltProgram {
     cl::Program program;
     BuildSource source = BuildSource::compiled;
     std::filesystem::path cache_file;  ///< empty: no cache folder
+    std::string key;                   ///< all that the program depends on
 };
 
 struct BuildOptions {
@@ -24,8 +25,8 @@ struct BuildOptions {
 /// The options that the compiler gets. Throws Error for numbers of lanes that kernels do not come in.
 std::string build_flags(const BuildOptions& options);
 
-/// Builds kernel text (with its #include lines) or takes it from the disk cache, whose key is a hash of the expanded
-/// source, the options, the device and its driver. A damaged cache entry is built anew.
+/// Builds kernel text (with its #include lines) or takes it from the disk cache, whose key is the expanded source, the
+/// options, the device, its driver and its platform. A damaged cache entry is built anew.
 /// Throws Error with the compiler's log, file:line of the kernel file.
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options);
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char kMagic[] = "wrinkle program 1\n";
+constexpr char kMagic[] = "wrinkle program 2\n";
 constexpr char kExtension[] = ".program";
 constexpr std::chrono::hours kAbandoned(1);  // a program that is still without its name was of a killed run
 
@@ -28,6 +28,8 @@ std::string hash_name(const std::string& text) {
     }
     return fmt::format("{:016x}{:016x}", a, b);
 }
+
+std::string with_length(const std::string& key) { return fmt::format("{:016x}{}", key.size(), key); }
 
 /// Where a program is written before it has its name: of this process and call alone.
 fs::path unfinished_name(const fs::path& file) {
@@ -80,28 +82,30 @@ fs::path cache_file(const std::string& key) {
     return folder.empty() ? fs::path() : folder / (hash_name(key) + kExtension);
 }
 
-// A file is: magic, hash of the binary, binary.
-std::vector<unsigned char> read_program(const fs::path& file) {
+// A file is: magic, hash of the rest, length of the key as 16 hex digits, key, binary.
+std::vector<unsigned char> read_program(const fs::path& file, const std::string& key) {
     std::ifstream in(file, std::ios::binary);
     if (!in) return {};
     const std::string content{std::istreambuf_iterator<char>(in), {}};
     const std::size_t header = sizeof kMagic - 1 + 32;
     if (content.size() <= header || !content.starts_with(kMagic)) return {};
-    const std::string binary = content.substr(header);
-    if (hash_name(binary) != content.substr(sizeof kMagic - 1, 32)) return {};
+    const std::string rest = content.substr(header), expected = with_length(key);
+    if (hash_name(rest) != content.substr(sizeof kMagic - 1, 32) || !rest.starts_with(expected)) return {};
     std::error_code ignored;
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
-    return {binary.begin(), binary.end()};
+    return {rest.begin() + static_cast<std::ptrdiff_t>(expected.size()), rest.end()};
 }
 
-void write_program(const fs::path& file, const std::vector<unsigned char>& bytes, std::uintmax_t limit) {
-    const std::string binary(bytes.begin(), bytes.end());
+void write_program(const fs::path& file, const std::string& key, const std::vector<unsigned char>& binary,
+                   std::uintmax_t limit) {
+    std::string rest = with_length(key);
+    rest.append(binary.begin(), binary.end());
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
     const fs::path beside = unfinished_name(file);
     {
         std::ofstream out(beside, std::ios::binary);
-        out << kMagic << hash_name(binary) << binary;
+        out << kMagic << hash_name(rest) << rest;
         if (!out.flush()) {
             fs::remove(beside, ignored);
             return;

@@ -11,15 +11,16 @@ namespace wrinkle {
 /// WRINKLE_CACHE_DIR, else wrinkle/ under XDG_CACHE_HOME or ~/.cache; empty where none is set.
 std::filesystem::path cache_folder();
 
-/// The file of the program that `key` describes; empty where there is no cache folder.
+/// The file of the program that `key` describes, named by a hash of it; empty where there is no cache folder.
 std::filesystem::path cache_file(const std::string& key);
 
-/// A program's binary, and its file marked as used. Empty where the file is missing or damaged.
-std::vector<unsigned char> read_program(const std::filesystem::path& file);
+/// A program's binary, and its file marked as used. Empty where the file is missing or damaged, or holds the program of
+/// another key with the same hash.
+std::vector<unsigned char> read_program(const std::filesystem::path& file, const std::string& key);
 
 /// Writes a program beside its file first, then renames it, and deletes the programs that were not used for longest
 /// where the folder then holds more than `limit` bytes of them. A cache that cannot be written is no error.
-void write_program(const std::filesystem::path& file, const std::vector<unsigned char>& binary,
+void write_program(const std::filesystem::path& file, const std::string& key, const std::vector<unsigned char>& binary,
                    std::uintmax_t limit = std::uintmax_t{256} << 20);
 
 }  // namespace wrinkle

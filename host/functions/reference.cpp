@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
+#include <sstream>
 
+#include "device/kernel_sources.h"
+#include "functions/kernel_listing.h"
 #include "functions/tables.h"
 
 namespace wrinkle {
@@ -78,8 +82,91 @@ void by_file(Visit visit) {
     }
 }
 
+/// The kernel files in the order of wrinkle.clh.
+std::vector<std::string> files_in_order() {
+    std::vector<std::string> files;
+    std::istringstream lines(kernel_source("wrinkle.clh"));
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("#include \"")) files.push_back(line.substr(10, line.rfind('"') - 10));
+    return files;
+}
+
+/// The structs of layout.h, member by member.
+std::string layout_tables() {
+    std::string text;
+    for (const LayoutStruct& layout : layout_structs(kernel_source("layout.h"))) {
+        text +=
+            fmt::format("\n### `{}`\n\n{} {} numbers.\n\n| offset | member | numbers | meaning |\n|---|---|---|---|\n",
+                        layout.name, layout.meaning, layout.size);
+        for (const LayoutMember& member : layout.members)
+            text += fmt::format("| {} | `{}` | {} | {} |\n", member.offset, member.name, member.count,
+                                escaped(member.meaning));
+    }
+    return text;
+}
+
+/// What a kernel file declares, as C, and the text that it begins with.
+std::string declarations_of(const std::string& file) {
+    const std::string source = kernel_source(file);
+    std::string text = "```c\n";
+    std::istringstream summary(kernel_file_summary(source));
+    for (std::string line; std::getline(summary, line);) text += line.empty() ? "//\n" : "// " + line + '\n';
+    for (const KernelItem& item : kernel_items(source)) {
+        text += '\n' + item.comment;
+        for (const std::string& declaration : item.declarations) text += declaration + '\n';
+    }
+    return text + "```\n";
+}
+
+/// The functions of the kernels that the text of a function's variants calls.
+std::string calls_of(const Function& function) {
+    static const std::regex call("\\b(wr_\\w+)\\(");
+    std::vector<std::string> declared, called;
+    for (const KernelItem& item : kernel_items(kernel_source(function.file)))
+        for (const std::string& declaration : item.declarations)
+            if (item.function) declared.push_back(declaration);
+    for (const FunctionVariant& variant : function.variants)
+        for (std::sregex_iterator at(variant.text.begin(), variant.text.end(), call), none; at != none; ++at) {
+            const std::string name = (*at)[1];
+            const bool here = std::ranges::any_of(
+                declared, [&](const std::string& text) { return text.find(' ' + name + '(') != std::string::npos; });
+            if (here && std::ranges::find(called, name) == called.end()) called.push_back(name);
+        }
+    return called.empty() ? "" : "<br>calls " + joined(called);
+}
+
 std::string line(const std::string& left, const std::string& right) {
     return fmt::format("  {:<26} {}\n", left, right);
+}
+
+/// The functions of a file that can be asked one at a time, as a table.
+std::string evaluated_functions(const std::vector<const Function*>& here) {
+    std::string text =
+        "\n| `wrinkle eval` | what | takes | gives | largest error | source |\n|---|---|---|---|---|---|\n";
+    for (const Function* function : here) {
+        std::vector<std::string> takes, gives, errors;
+        for (const Parameter& parameter : function->parameters)
+            takes.push_back(fmt::format("`{}` {}; {}", joined(parameter.columns()), parameter.meaning, parameter.unit));
+        for (const Setting& setting : function->settings)
+            takes.push_back(fmt::format("setting `{}` {}; {}; {}", setting.name, setting.meaning,
+                                        wanted_text(setting.kind), standard_of(setting)));
+        for (const Result& result : function->results)
+            gives.push_back(fmt::format("`{}` {}; {}", joined(result.columns()), result.meaning, result.unit));
+        for (const FunctionVariant& variant : function->variants)
+            errors.push_back(fmt::format("{} {}", precision_name(variant.precision), errors_of(*function, variant)));
+        if (function->fp64_error != Function{}.fp64_error)
+            errors.push_back(fmt::format("double {}", digits(function->fp64_error)));
+        if (!function->note.empty()) errors.push_back(function->note);
+        const std::string cells[] = {'`' + function->name + '`' + calls_of(*function),
+                                     function->summary,
+                                     joined(takes, "<br>"),
+                                     joined(gives, "<br>"),
+                                     joined(errors, "<br>"),
+                                     function->source};
+        for (const std::string& cell : cells) text += "| " + escaped(cell) + " ";
+        text += "|\n";
+    }
+    return text;
 }
 
 }  // namespace
@@ -152,39 +239,33 @@ std::string function_help(const Function& function) {
 
 std::string reference_page() {
     std::string text =
-        "# Kernel functions\n\n"
-        "Written by `wrinkle eval --reference`; do not edit. Each function can be asked by itself: `wrinkle eval NAME\n"
-        "--help`. Errors are the largest that the tests allow, on regular and hard inputs alike, in float; with\n"
-        "`--precision double` they are 1e-9 or as noted. World space is right-handed, positions are relative to the "
-        "eye,\n"
-        "images have x to the right and y down.\n";
-    by_file([&](const std::string& file, const std::vector<const Function*>& here) {
-        text += fmt::format(
-            "\n## [{0}]({0})\n\n| function | what | takes | gives | largest error | source |\n"
-            "|---|---|---|---|---|---|\n",
-            file);
-        for (const Function* function : here) {
-            std::vector<std::string> takes, gives, errors;
-            for (const Parameter& parameter : function->parameters)
-                takes.push_back(
-                    fmt::format("`{}` {}; {}", joined(parameter.columns()), parameter.meaning, parameter.unit));
-            for (const Setting& setting : function->settings)
-                takes.push_back(fmt::format("setting `{}` {}; {}; {}", setting.name, setting.meaning,
-                                            wanted_text(setting.kind), standard_of(setting)));
-            for (const Result& result : function->results)
-                gives.push_back(fmt::format("`{}` {}; {}", joined(result.columns()), result.meaning, result.unit));
-            for (const FunctionVariant& variant : function->variants)
-                errors.push_back(
-                    fmt::format("{} {}", precision_name(variant.precision), errors_of(*function, variant)));
-            if (function->fp64_error != Function{}.fp64_error)
-                errors.push_back(fmt::format("double {}", digits(function->fp64_error)));
-            if (!function->note.empty()) errors.push_back(function->note);
-            const std::string cells[] = {'`' + function->name + '`', function->summary,      joined(takes, "<br>"),
-                                         joined(gives, "<br>"),      joined(errors, "<br>"), function->source};
-            for (const std::string& cell : cells) text += "| " + escaped(cell) + " ";
-            text += "|\n";
-        }
-    });
+        "# Kernels\n\n"
+        "Written by `wrinkle eval --reference` from the comments in the files; do not edit.\n\n"
+        "To use them in a program of your own, give the compiler this folder (`-I`) and include `wrinkle.clh` or any "
+        "of\n"
+        "the files alone, which bring what they need. Nothing of the host is necessary. Every name begins with `wr_` "
+        "or\n"
+        "`WR_`. What they take of a compiler stands under [lanes.clh](#lanesclh).\n\n"
+        "World space is right-handed, positions are relative to the eye, image points have x to the right and y down,\n"
+        "texture coordinates t up. \"Max error\" is the largest that the tests allow, on regular and hard inputs "
+        "alike, in\n"
+        "float; with `WR_FP64` it is 1e-9 or as noted. Papers: [Mik20] is Mikkelsen, \"Surface Gradient-Based Bump "
+        "Mapping\n"
+        "Framework\", JCGT 2020; the others are named by author and year.\n\n"
+        "Under a file's declarations stands what `wrinkle eval NAME` evaluates of it on columns of numbers (`--help` "
+        "tells\n"
+        "how), with the errors that are tested, by measure, and the source of each formula.\n\n"
+        "## Structs\n\nOf [layout.h](layout.h). Offsets count numbers: 4 bytes each, 8 with `WR_FP64`.\n" +
+        layout_tables();
+    std::vector<std::string> files = files_in_order();
+    std::erase(files, "layout.h");
+    for (const std::string& file : files) {
+        text += fmt::format("\n## [{0}]({0})\n\n{1}", file, declarations_of(file));
+        std::vector<const Function*> here;
+        for (const Function& function : functions())
+            if (function.file == file) here.push_back(&function);
+        if (!here.empty()) text += evaluated_functions(here);
+    }
     return text;
 }
 

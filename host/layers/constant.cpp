@@ -5,7 +5,7 @@ namespace wrinkle {
 namespace {
 
 void read(scene::Table& table, Layer& layer) {
-    ConstantLayer bump;
+    auto bump = scene::held<ConstantLayer>(layer);
     table.require("gradient");
     table.read("gradient", bump.gradient);
     scene::read_project(table, layer);

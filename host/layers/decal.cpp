@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "base/vec.h"
 #include "layers/common.h"
@@ -15,9 +14,23 @@ constexpr double kDecal = 75, kMixed = 140;  // expected operations
 
 const DecalLayer& decal_of(const Layer& layer) { return std::get<DecalLayer>(layer.bump); }
 
+/// Files give angles where scenes hold cosines.
+void read_angle_fade(scene::Table& table, std::array<double, 2>& cosines) {
+    const char* const key = "angle_fade";
+    if (table.visits()) {
+        if (table.read(key, cosines, {.low = -1, .high = 1}) && cosines[0] > cosines[1])
+            table.complain(key, "must be cosines [zero below, full above], the smaller one first");
+        return;
+    }
+    std::array<double, 2> degrees{};
+    if (!table.read(key, degrees, {.low = 0, .high = 180})) return;
+    if (degrees[0] > degrees[1])
+        table.complain(key, "must be [full below, zero above] in degrees, the smaller angle first");
+    cosines = {std::cos(scene::to_radians(degrees[1])), std::cos(scene::to_radians(degrees[0]))};
+}
+
 void read(scene::Table& table, Layer& layer) {
-    DecalLayer bump;
-    bump.texture.wrap = Wrap::clamp;
+    auto bump = scene::held<DecalLayer>(layer);
     scene::read_any_texture(table, bump.texture);
     table.require("center");
     table.read("center", bump.center);
@@ -35,14 +48,8 @@ void read(scene::Table& table, Layer& layer) {
     }
     table.read("half_size", bump.half_size, scene::positive);
     table.read("falloff", bump.falloff, scene::zero_to_one);
-    std::array<double, 2> degrees{};
-    if (table.read("angle_fade", degrees, {.low = 0, .high = 180})) {
-        if (degrees[0] > degrees[1])
-            table.complain("angle_fade", "must be [full below, zero above] in degrees, the smaller angle first");
-        const auto cosine = [](double angle) { return std::cos(angle * std::numbers::pi / 180); };
-        bump.angle_fade = {cosine(degrees[1]), cosine(degrees[0])};
-    }
-    table.read("two_sided", bump.two_sided);
+    read_angle_fade(table, bump.angle_fade);
+    table.read("two_sided", bump.two_sided, scene::Compiled::no);
     table.choose("mode", bump.mode,
                  {{"surface_gradient", DecalMode::surface_gradient}, {"projector", DecalMode::projector}});
     scene::read_weight(table, layer);
@@ -61,10 +68,11 @@ Projector row(const Layer& layer) {
             .two_sided = decal.two_sided};
 }
 
-/// Same mask, and the same way to sample.
+/// Same mask, and the same way to sample. Which object a mask is for is not compiled in, so two of them are never the
+/// same.
 bool joins(const Layer& a, const Layer& b) {
-    const bool same_mask = !a.mask.texture && !b.mask.texture && a.mask.object == b.mask.object &&
-                           a.mask.cryptomatte == b.mask.cryptomatte && a.mask.channel == b.mask.channel &&
+    const auto of_an_object = [](const Mask& mask) { return mask.object || mask.cryptomatte || mask.texture; };
+    const bool same_mask = !of_an_object(a.mask) && !of_an_object(b.mask) && a.mask.channel == b.mask.channel &&
                            a.mask.invert == b.mask.invert;
     const TextureUse &ta = decal_of(a).texture, &tb = decal_of(b).texture;
     return same_mask && decal_of(a).mode == decal_of(b).mode && a.footprint == b.footprint &&

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -7,6 +8,7 @@
 
 #include "layers/common.h"
 #include "plan/decal_order.h"
+#include "scene/decal_reader.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -15,14 +17,76 @@ namespace {
 
 constexpr double kDecal = 90;  // expected operations, for the one decal that a pixel of an average table lies in
 
+/// What sets the texture of a row apart.
+using Image = std::tuple<std::uint32_t, std::array<double, 4>, Wrap>;
+Image image_of(const Projector& row) { return {row.texture, row.region, row.wrap}; }
+
+/// The images of a table, numbered in the order of first use.
+class Images {
+public:
+    /// The number of a row's, and whether no row before it has the same.
+    std::pair<std::uint32_t, bool> operator()(const Projector& row) {
+        Image image = image_of(row);
+        if (last_ != known_.end() && last_->first == image) return {last_->second, false};
+        const auto [found, is_new] = known_.try_emplace(std::move(image), static_cast<std::uint32_t>(known_.size()));
+        last_ = found;
+        return {found->second, is_new};
+    }
+
+private:
+    std::map<Image, std::uint32_t> known_;
+    std::map<Image, std::uint32_t>::iterator last_ = known_.end();
+};
+
+bool any_object(const std::vector<Projector>& rows) {
+    return std::ranges::any_of(rows, [](const Projector& row) { return row.object.has_value(); });
+}
+bool any_cryptomatte(const std::vector<Projector>& rows) {
+    return std::ranges::any_of(rows, [](const Projector& row) { return !row.cryptomatte.empty(); });
+}
+
+/// Checks the rows of a scene in memory, and says what of them is compiled in.
+void visit_rows(scene::Table& table, const DecalsLayer& bump) {
+    static const std::vector<Projector> none;
+    const std::vector<Projector>& rows = bump.rows ? *bump.rows : none;
+    try {
+        scene::DecalReader reader(bump.file.string(), bump.textures.size(), scene::DecalReader::Form::memory);
+        for (const Projector& row : rows) reader.check(row);
+        reader.finish();
+    } catch (const Error& error) { table.complain("rows", fmt::format("cannot be used:\n{}", error.what())); }
+    Images images;
+    std::string used;
+    for (const Projector& row : rows)
+        if (images(row).second)
+            used += fmt::format("{}texture {}, region [{}], {}", used.empty() ? "" : "; ", row.texture,
+                                fmt::join(row.region, ", "), row.wrap == Wrap::clamp ? "clamp" : "tile");
+    table.compiled_in("rows", std::move(used));
+    table.compiled_in("object", any_object(rows));
+    table.compiled_in("cryptomatte", any_cryptomatte(rows));
+}
+
+void read_rows(scene::Table& table, DecalsLayer& bump) {
+    if (table.visits()) return visit_rows(table, bump);
+    table.require("file");
+    if (!table.read_file("file", bump.file) || bump.textures.empty()) return;
+    try {
+        bump.rows = std::make_shared<const std::vector<Projector>>(load_decals(bump.file, bump.textures.size()));
+    } catch (const Error& error) { table.complain("file", fmt::format("cannot be used:\n{}", error.what())); }
+}
+
 void read(scene::Table& table, Layer& layer) {
-    DecalsLayer bump;
+    auto bump = scene::held<DecalsLayer>(layer);
     table.require("textures");
-    for (scene::Table& each : table.tables("textures")) {
-        TextureUse& texture = bump.textures.emplace_back();
-        each.rename(fmt::format("texture {} of {}", bump.textures.size() - 1, table.where()));
+    std::vector<scene::Table> tables = table.tables("textures", bump.textures.size());
+    table.compiled_in("textures", static_cast<int>(tables.size()));
+    bump.textures.resize(tables.size());
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        scene::Table& each = tables[i];
+        TextureUse& texture = bump.textures[i];
+        each.rename(fmt::format("texture {} of {}", i, table.where()));
         each.require("file");
         each.read_file("file", texture.file);
+        if (table.visits()) scene::visit_texture(each, texture);
         each.choose("content", texture.content,
                     {{"height", Content::height}, {"normal", Content::normal}, {"slope", Content::slope}});
         scene::read_green(each, texture);
@@ -32,61 +96,71 @@ void read(scene::Table& table, Layer& layer) {
     }
     if (table.has("textures") && bump.textures.empty() && !table.is_bad("textures"))
         table.complain("textures", "must list at least one { file = \"...\" }");
-    table.require("file");
-    if (table.read_file("file", bump.file) && !bump.textures.empty()) {
-        try {
-            bump.rows = std::make_shared<const std::vector<Projector>>(load_decals(bump.file, bump.textures.size()));
-        } catch (const Error& error) { table.complain("file", fmt::format("cannot be used:\n{}", error.what())); }
-    }
+    read_rows(table, bump);
     scene::read_weight(table, layer);
     layer.bump = std::move(bump);
 }
 
-/// Gives every row its texture: one for each region of an image that is used, wrapped as it is used.
-std::vector<ProjectedImage> plan_images(Plan& plan, const DecalsLayer& layer, const std::string& who) {
-    std::map<std::tuple<std::uint32_t, std::array<double, 4>, Wrap>, std::uint32_t> known;
-    std::vector<ProjectedImage> images;
-    images.reserve(layer.rows->size());
+/// One texture for each region of an image that is used, wrapped as it is used.
+void plan_textures(Plan& plan, const DecalsLayer& layer, const std::string& who) {
+    Images images;
     for (const Projector& row : *layer.rows) {
         if (row.texture >= layer.textures.size())
             throw Error(
                 fmt::format("{}: a row names texture {}; the layer has {}", who, row.texture, layer.textures.size()));
+        if (!images(row).second) continue;
         TextureUse use = layer.textures[row.texture];
         use.wrap = row.wrap;
         use.upscale = Upscale::smooth;
         use.unit = SlopeUnit::metre;
-        const auto [found, is_new] =
-            known.try_emplace({row.texture, row.region, row.wrap}, static_cast<std::uint32_t>(plan.textures.size()));
-        if (is_new) plan.textures.push_back({use, TexelKind::slope, {}, row.region});
-        images.push_back({found->second, use.content == Content::height});
+        plan.textures.push_back({use, TexelKind::slope, {}, row.region});
     }
-    return images;
+}
+
+/// Cryptomatte hashes of the rows; none where no row has one.
+std::vector<std::uint32_t> hashes_of(const DecalsLayer& layer, const NumberSource& source, const std::string& who) {
+    std::vector<std::uint32_t> all;
+    if (!any_cryptomatte(*layer.rows)) return all;
+    std::map<std::string, std::uint32_t> known;
+    for (std::size_t i = 0; i < layer.rows->size(); ++i) {
+        const std::string& name = (*layer.rows)[i].cryptomatte;
+        const auto [found, is_new] = known.try_emplace(name);
+        if (is_new && !name.empty())
+            found->second = cryptomatte_hash(source.cryptomatte, name, who + ": " + row_place(layer, i));
+        all.push_back(found->second);
+    }
+    return all;
+}
+
+/// The rows as kernels see them; `first_texture` is the number of the table's first.
+void take_rows(PlannedDecals& table, const NumberSource& source, std::uint32_t first_texture) {
+    const Layer& layer = source.scene.layers.at(table.layer);
+    const auto& decals = std::get<DecalsLayer>(layer.bump);
+    table.rows = decals.rows;
+    table.order = decal_order(*decals.rows);
+    table.hashes = hashes_of(decals, source, layer_label(layer));
+    table.images.clear();
+    table.images.reserve(decals.rows->size());
+    Images images;
+    for (const Projector& row : *decals.rows)
+        table.images.push_back(
+            {first_texture + images(row).first, decals.textures.at(row.texture).content == Content::height});
 }
 
 /// Text that multiplies `weight` by what the row's own mask says.
-std::string row_masks(LayerText& at, const DecalsLayer& layer, PlannedDecals& table) {
-    const std::vector<Projector>& rows = *table.rows;
+std::string row_masks(LayerText& at, const std::vector<Projector>& rows) {
     if (std::ranges::any_of(rows, [](const Projector& row) { return row.object && !row.cryptomatte.empty(); }))
         throw Error(at.who + ": a row has both an object and a Cryptomatte object; give one");
     std::string text;
-    if (std::ranges::any_of(rows, [](const Projector& row) { return row.object.has_value(); })) {
+    if (any_object(rows)) {
         at.emitter.need(at.who, {"object"});
         at.section.inputs.insert("object");
         text +=
             "                    if (decal->mask == 1) weight *= wr_mask_object(wr_load(in_object, at.in), "
             "decal->object);\n";
     }
-    if (std::ranges::none_of(rows, [](const Projector& row) { return !row.cryptomatte.empty(); })) return text;
+    if (!any_cryptomatte(rows)) return text;
     at.emitter.need(at.who, {"crypto.id0", "crypto.coverage0"});
-    std::map<std::string, std::uint32_t> hashes;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::string& name = rows[i].cryptomatte;
-        const auto [found, is_new] = hashes.try_emplace(name);
-        if (is_new && !name.empty())
-            found->second =
-                cryptomatte_hash(at.emitter.available.cryptomatte, name, at.who + ": " + row_place(layer, i));
-        table.hashes.push_back(found->second);
-    }
     text += "                    if (decal->mask == 2) {\n                        wr_real covered = 0;\n";
     for (int rank = 0; at.emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
         const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
@@ -113,25 +187,44 @@ std::vector<NamedObject> objects(const Layer& layer) {
     return found;
 }
 
+/// Text that skips rows of other layers, where there are such. Row numbers are not compiled in: a table of another
+/// length is the same program. A float holds half of one.
+std::string another_layers(LayerText& at) {
+    const std::vector<Layer>& layers = at.emitter.scene.layers;
+    if (std::ranges::count_if(layers, [&](const Layer& layer) { return at.emitter.kind(layer).binned; }) < 2) return {};
+    const std::size_t index = at.emitter.index_of(at.layer);
+    const std::size_t bounds =
+        at.emitter.numbers(at.layer, "first and last row", [index](const Layer&, const NumberSource& source) {
+            std::vector<double> halves;
+            std::size_t rows = 0;
+            for (std::size_t i = 0; i <= index; ++i) {
+                const auto* table = std::get_if<DecalsLayer>(&source.scene.layers[i].bump);
+                if (i == index) halves = {static_cast<double>(rows >> 16), static_cast<double>(rows & 0xffff)};
+                if (table && table->rows) rows += table->rows->size();
+            }
+            halves.insert(halves.end(), {static_cast<double>(rows >> 16), static_cast<double>(rows & 0xffff)});
+            return halves;
+        });
+    const auto row = [](std::size_t half) {
+        return fmt::format("((uint)numbers[{}] << 16 | (uint)numbers[{}])", half, half + 1);
+    };
+    return fmt::format("                    if (number < {} || number >= {}) continue;  // of another layer\n",
+                       row(bounds), row(bounds + 2));
+}
+
 std::string emit(LayerText& at) {
     const auto& l = std::get<DecalsLayer>(at.layer.bump);
     if (!l.rows || l.rows->empty()) return {};
     Plan& plan = at.emitter.plan;
-    const std::size_t first = plan.projectors, last = first + l.rows->size();
+    const auto first_texture = static_cast<std::uint32_t>(plan.textures.size());
+    plan_textures(plan, l, at.who);
     PlannedDecals& table = plan.tables.emplace_back();
     table.layer = at.emitter.index_of(at.layer);
-    table.rows = l.rows;
-    table.order = decal_order(*l.rows);
-    table.images = plan_images(plan, l, at.who);
-    plan.projectors = last;
-
-    // Row numbers stand in the text only where they must: a table of another length is the same program.
-    const auto is_binned = [&](const Layer& layer) { return at.emitter.kind(layer).binned; };
-    const std::string another_table =
-        std::ranges::count_if(at.emitter.scene.layers, is_binned) > 1
-            ? fmt::format("                    if (number < {}u || number >= {}u) continue;  // of another layer\n",
-                          first, last)
-            : "";
+    table.take_rows = [first_texture](PlannedDecals& into, const NumberSource& source) {
+        take_rows(into, source, first_texture);
+    };
+    table.take_rows(table, {at.emitter.scene, at.emitter.available.cryptomatte});
+    plan.projectors += l.rows->size();
 
     const bool facing = at.emitter.options.view_footprint;
     at.section.reads.insert({"p", "dh_dp"});
@@ -167,7 +260,7 @@ std::string emit(LayerText& at) {
         }}
         dh_dp = wr_fma(sum, m, dh_dp);
 )",
-        another_table, facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, l, table),
+        another_layers(at), facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, *l.rows),
         at.layer.footprint
             ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
             : "0");

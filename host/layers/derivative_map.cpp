@@ -9,8 +9,8 @@ namespace {
 constexpr double kTextureMetres = 60;  // expected operations
 
 void read(scene::Table& table, Layer& layer) {
-    DerivativeMapLayer bump;
-    scene::read_texture_file(table, bump.texture);
+    auto bump = scene::held<DerivativeMapLayer>(layer);
+    scene::read_texture_of(table, bump.texture, Content::slope);
     scene::read_green(table, bump.texture);
     scene::read_slope_encoding(table, bump.texture);
     table.choose("bump_scale", bump.auto_scale, {{"metres", false}, {"auto", true}});

@@ -5,7 +5,7 @@ namespace wrinkle {
 namespace {
 
 void read(scene::Table& table, Layer& layer) {
-    HeightChannelLayer bump;
+    auto bump = scene::held<HeightChannelLayer>(layer);
     table.require("channel");
     table.read("channel", bump.channel);
     scene::read_weight_without_levels(table, layer);

@@ -10,8 +10,8 @@ namespace {
 constexpr double kTaps = 240;  // expected operations
 
 void read(scene::Table& table, Layer& layer) {
-    HeightMapLayer bump;
-    scene::read_texture_file(table, bump.texture);
+    auto bump = scene::held<HeightMapLayer>(layer);
+    scene::read_texture_of(table, bump.texture, Content::height);
     table.choose("upscale", bump.texture.upscale,
                  {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}, {"taps", Upscale::taps}});
     scene::read_mapped(table, bump.texture, bump.uv);

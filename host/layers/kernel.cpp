@@ -35,22 +35,32 @@ bool is_name(const std::string& text) {
            std::ranges::find(kWords, text) == std::end(kWords);
 }
 
+/// Their names become members of a structure, their values numbers of the scene.
+void read_parameters(scene::Table& table, std::map<std::string, double>& out) {
+    for (const std::string& name : table.keys()) out.try_emplace(name);
+    for (auto& [name, value] : out) {
+        if (!is_name(name)) table.complain(name, kNameRule);
+        table.read(name, value);
+        table.compiled_in(name, std::string("given"));
+    }
+    table.finish();
+}
+
 void read(scene::Table& table, Layer& layer) {
-    KernelLayer bump;
+    auto bump = scene::held<KernelLayer>(layer);
     table.require("file");
     table.read_file("file", bump.file);
     table.require("function");
     if (table.read("function", bump.function) && !is_name(bump.function)) table.complain("function", kNameRule);
-    if (auto parameters = table.table("parameters", "parameters of " + table.where())) {
-        for (const std::string& name : parameters->keys()) {
-            if (!is_name(name)) parameters->complain(name, kNameRule);
-            parameters->read(name, bump.parameters[name]);
-        }
-        parameters->finish();
-    }
+    if (auto parameters = table.table("parameters", "parameters of " + table.where(), !bump.parameters.empty()))
+        read_parameters(*parameters, bump.parameters);
     table.choose("over", bump.over_uv, {{"space", false}, {"uv", true}});
-    if (auto uv = table.table("uv", "uv of " + table.where())) read_uv(*uv, bump.uv.emplace());
+    if (auto uv = table.table("uv", "uv of " + table.where(), bump.uv.has_value())) {
+        if (!bump.uv) bump.uv.emplace();
+        read_uv(*uv, *bump.uv);
+    }
     if (bump.over_uv && !bump.uv) bump.uv.emplace();
+    table.compiled_in("uv", bump.uv.has_value());
     scene::read_project(table, layer);
     scene::read_weight(table, layer);
     layer.bump = bump;

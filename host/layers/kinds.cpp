@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/only_errors.h"
+#include "scene/check_scene.h"
 #include "scene/readers.h"
 
 namespace wrinkle {
@@ -42,6 +43,10 @@ Scene load_scene(const std::filesystem::path& file) {
 
 Figure load_figure(const std::filesystem::path& file) {
     return only_errors("load a figure", [&] { return scene::load_figure(layer_kinds(), file); });
+}
+
+void check(const Scene& scene) {
+    only_errors("check a scene", [&] { scene::check_scene(layer_kinds(), scene); });
 }
 
 }  // namespace wrinkle

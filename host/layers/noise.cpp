@@ -13,7 +13,7 @@ namespace {
 const NoiseLayer& noise_of(const Layer& layer) { return std::get<NoiseLayer>(layer.bump); }
 
 void read(scene::Table& table, Layer& layer) {
-    NoiseLayer bump;
+    auto bump = scene::held<NoiseLayer>(layer);
     scene::read_noise_source(table, bump);
     scene::read_project(table, layer);
     scene::read_weight(table, layer);

@@ -58,8 +58,8 @@ Vec3 plane_axis(const UvMapping& uv) {
 }
 
 void read(scene::Table& table, Layer& layer) {
-    NormalMapLayer bump;
-    scene::read_texture_file(table, bump.texture);
+    auto bump = scene::held<NormalMapLayer>(layer);
+    scene::read_texture_of(table, bump.texture, Content::normal);
     scene::read_green(table, bump.texture);
     scene::read_mapped(table, bump.texture, bump.uv);
     table.choose("combine", bump.combine,
@@ -71,6 +71,7 @@ void read(scene::Table& table, Layer& layer) {
     table.choose(
         "tangents", bump.tangents,
         {{"auto", TangentSource::automatic}, {"derived", TangentSource::derived}, {"passes", TangentSource::planes}});
+    if (bump.tangents == TangentSource::automatic) table.compiled_in("uv.rotation", bump.uv.rotation != 0);
     if (bump.tangents == TangentSource::planes && (bump.uv.source != UvSource::aov || bump.uv.rotation != 0))
         table.complain("tangents",
                        "is \"passes\", which belong to the UV pass as it is: uv must not be planar or turn");

@@ -37,8 +37,20 @@ Rows normal_matrix(const Rows& m, const std::string& who) {
     return cofactor;
 }
 
+bool is_flat(const Rows& m) {
+    constexpr double share = 1e-9;  // of what rows of these lengths may span
+    return !(std::abs(dot(normalize(m[0]), cross(normalize(m[1]), normalize(m[2])))) > share);
+}
+
+bool turns(const ObjectNormalLayer& l) { return l.channels != kIdentity || l.object_to_world != kIdentity; }
+
 /// Three axes such as "x -z y", each once: what red, green and blue point along.
 void read_channels(scene::Table& table, std::array<Vec3, 3>& out) {
+    if (table.visits()) {
+        if (table.read_matrix("channels", out) && is_flat(out))
+            table.complain("channels", "must be three directions that do not lie in a plane");
+        return;
+    }
     std::string text;
     if (!table.read("channels", text)) return;
     std::array<Vec3, 3> axes{};
@@ -62,17 +74,15 @@ void read_channels(scene::Table& table, std::array<Vec3, 3>& out) {
 }
 
 void read(scene::Table& table, Layer& layer) {
-    ObjectNormalLayer bump;
-    scene::read_texture_file(table, bump.texture);
+    auto bump = scene::held<ObjectNormalLayer>(layer);
+    scene::read_texture_of(table, bump.texture, Content::object_normal);
     bool world = false;
     table.choose("space", world, {{"object", false}, {"world", true}});
     read_channels(table, bump.channels);
     table.read_matrix("object_to_world", bump.object_to_world);
     table.only_with("object_to_world", !world, "space", "object");
-    const auto& m = bump.object_to_world;
-    constexpr double flat = 1e-9;  // as a share of what rows of these lengths span
-    if (!table.is_bad("object_to_world") &&
-        !(std::abs(dot(normalize(m[0]), cross(normalize(m[1]), normalize(m[2])))) > flat))
+    table.compiled_in("object_to_world", turns(bump));
+    if (!table.is_bad("object_to_world") && is_flat(bump.object_to_world))
         table.complain("object_to_world", "must not flatten the object: its determinant is 0");
     scene::read_mapped(table, bump.texture, bump.uv);
     scene::read_weight(table, layer);
@@ -93,7 +103,7 @@ std::string emit(LayerText& at) {
     const auto& l = std::get<ObjectNormalLayer>(at.layer.bump);
     std::string text = at.textured(l.texture, "wr_vec3 v");
     at.section.operations += kPerturbedNormal;
-    if (l.channels != kIdentity || l.object_to_world != kIdentity) {
+    if (turns(l)) {
         const std::size_t rows = at.emitter.numbers(at.layer, "object_to_world", [](const Layer& layer, const auto&) {
             std::vector<double> numbers;
             for (const Vec3& row : turn_of(std::get<ObjectNormalLayer>(layer.bump), layer_label(layer)))

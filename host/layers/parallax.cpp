@@ -14,8 +14,8 @@ constexpr double kProjection = 140, kMove = 40, kHeightSample = 40;  // expected
 constexpr double kDeepest = 1e6;                                     // metres; keeps what is moved within float32
 
 void read(scene::Table& table, Layer& layer) {
-    ParallaxLayer bump;
-    scene::read_texture_file(table, bump.texture);
+    auto bump = scene::held<ParallaxLayer>(layer);
+    scene::read_texture_of(table, bump.texture, Content::height);
     scene::read_mapped(table, bump.texture, bump.uv);
     table.choose("mode", bump.mode, {{"offset", ParallaxMode::offset}, {"march", ParallaxMode::march}});
     table.read("steps", bump.steps, 1, 1024);

@@ -23,7 +23,7 @@ bool every_plane(const TriplanarLayer& bump, const Holds& holds) {
 }
 
 void read(scene::Table& table, Layer& layer) {
-    TriplanarLayer bump;
+    auto bump = scene::held<TriplanarLayer>(layer);
     scene::read_planes(table, bump);
     table.read("tile", bump.tile, scene::positive);
     table.read("sharpness", bump.sharpness, {.low = 0, .high = 1000, .low_is_allowed = false});
@@ -49,6 +49,8 @@ void read(scene::Table& table, Layer& layer) {
                        "must be \"surface_gradient\" with content = \"object_normal\": such normals have no slopes");
     if (auto placement = table.table("transform", "transform of " + table.where()))
         scene::read_placement(*placement, bump.transform);
+    table.compiled_in("transform", bump.transform != Placement{});
+    table.compiled_in("transform.rotate", bump.transform.rotate != Vec3{});
     scene::read_weight(table, layer);
     layer.project = bump.mode == TriplanarMode::surface_gradient;
     layer.bump = bump;
@@ -60,7 +62,6 @@ const TriplanarLayer& triplanar_of(const Layer& layer) { return std::get<Triplan
 struct Projection {
     std::array<Vec3, 3> rows{};
     Vec3 offset{};
-    bool along_axes = true;  ///< a diagonal matrix
 
     double size(std::size_t k) const { return std::sqrt(dot(rows[k], rows[k])); }  ///< repeats per metre
 };
@@ -77,10 +78,7 @@ Projection projection_of(const TriplanarLayer& l) {
     Projection to;
     for (std::size_t k = 0; k < 3; ++k) {
         const double sign = k == 2 && l.handedness == Handedness::right ? -1 : 1;
-        for (std::size_t j = 0; j < 3; ++j) {
-            to.rows[k][j] = sign * object[k][j] / (l.transform.scale[k] * l.tile);
-            to.along_axes &= j == k || to.rows[k][j] == 0;
-        }
+        for (std::size_t j = 0; j < 3; ++j) to.rows[k][j] = sign * object[k][j] / (l.transform.scale[k] * l.tile);
         to.offset[k] = -dot(to.rows[k], l.transform.translate);
     }
     return to;
@@ -117,7 +115,7 @@ NoiseAxes plane_axes(const TriplanarLayer& l, std::size_t plane) {
 class TriplanarText {
 public:
     explicit TriplanarText(LayerText& at)
-        : at_(at), l_(triplanar_of(at.layer)), along_axes_(projection_of(l_).along_axes) {
+        : at_(at), l_(triplanar_of(at.layer)), along_axes_(l_.transform.rotate == Vec3{}) {
         rows_ = at.emitter.numbers(at.layer, "world to repeats", [](const Layer& layer, const auto&) {
             return flat(projection_of(triplanar_of(layer)).rows);
         });

@@ -11,8 +11,10 @@ namespace {
 
 constexpr double kLinear = 90, kSmooth = 330, kVector = 110;  // expected operations
 
+const Mat4 kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+
 void read(scene::Table& table, Layer& layer) {
-    VolumeLayer bump;
+    auto bump = scene::held<VolumeLayer>(layer);
     table.require("volume");
     table.read_file("volume", bump.file);
     table.read("grid", bump.grid);
@@ -23,6 +25,7 @@ void read(scene::Table& table, Layer& layer) {
     if (static_cast<float>(bump.range[0]) == static_cast<float>(bump.range[1]))
         table.complain("range", "must be two different numbers");
     table.only_with("range", bump.remap != Remap::none, "remap", "ramp\", \"smooth\" or \"wave");
+    table.compiled_in("transform", bump.transform != kIdentity);
     if (table.read_matrix("transform", bump.transform)) {
         const auto& last = bump.transform[3];
         if (last[0] != 0 || last[1] != 0 || last[2] != 0 || last[3] != 1)
@@ -52,8 +55,7 @@ Mat4 index_from_world(const Mat4& file, const Layer& layer) {
 class IndexMatrix {
 public:
     IndexMatrix(LayerText& at, const Mat4& file) {
-        const Mat4 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-        along_axes_ = std::get<VolumeLayer>(at.layer.bump).transform == identity;
+        along_axes_ = std::get<VolumeLayer>(at.layer.bump).transform == kIdentity;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) along_axes_ &= i == j || file[i][j] == 0;
         first_ = at.emitter.numbers(at.layer, "transform", [file](const Layer& layer, const auto&) {

@@ -110,6 +110,8 @@ struct PlannedDecals {
     std::vector<std::uint32_t> order;    ///< of the rows in the device's table
     std::vector<ProjectedImage> images;  ///< of each row
     std::vector<std::uint32_t> hashes;   ///< Cryptomatte, of each row; empty where no row has one
+    /// Sets these, but for the layer, to the rows of another scene of the same structure.
+    std::function<void(PlannedDecals& table, const NumberSource& source)> take_rows;
 };
 
 /// One kernel: its planes in the order of its arguments. Scratch planes exist in split plans only.

@@ -84,6 +84,10 @@ void Pass::set_camera(const Camera& camera) {
     guarded("set the camera", [&] { impl_->set_camera(camera); });
 }
 
+void Pass::set_parameters(const Scene& scene) {
+    guarded("set the parameters of a pass", [&] { impl_->set_parameters(scene); });
+}
+
 void Pass::run(const HostPlanes& in, const HostOutputs& out) {
     guarded("run a pass", [&] { run_bands<float>(*impl_, in, out); });
 }
@@ -106,7 +110,10 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const R
             throw Error(fmt::format("rows {} to {} need a row before and after them, as the pass reads neighbours",
                                     rows.first, end));
         refuse_shared_memory(in, impl_->plan.inputs, out, impl_->plan.outputs);
-        return impl_->enqueue(in, out, rows, wait);
+        impl_->save_if_complete();
+        const cl::Event done = impl_->enqueue(in, out, rows, wait);
+        if (impl_->first_run() == nullptr) impl_->first_run = done;
+        return done;
     });
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "layers/kinds.h"
 #include "resources/frame_constants.h"
+#include "scene/check_scene.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -58,6 +60,11 @@ const cl::Buffer& plane(const DevicePlanes& planes, const std::string& name, std
     return found->second;
 }
 
+const Scene& checked(const Scene& scene) {
+    check(scene);
+    return scene;
+}
+
 /// Streaming stores need whole vectors: memory that the caller lent must be aligned to one.
 void check_alignment(const cl::Buffer& buffer, const std::string& name, std::size_t alignment) {
     if ((buffer.getInfo<CL_MEM_FLAGS>() & CL_MEM_USE_HOST_PTR) == 0) return;
@@ -84,7 +91,7 @@ Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options
 Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const PassOptions& wanted,
                  const PlanOptions& plan_options, TextureStore* store)
     : device(on),
-      scene(of),
+      scene(checked(of)),
       cryptomatte(shape.cryptomatte),
       camera(shape.camera),
       size(shape.size),
@@ -120,6 +127,21 @@ void Pass::Impl::set_camera(const Camera& other) {
     upload_constants();
 }
 
+void Pass::Impl::set_parameters(const Scene& other) {
+    const LayerKinds kinds = layer_kinds();
+    scene::require_same_structure(scene::structure_of(kinds, scene), scene::check_scene(kinds, other));
+    Scene before = std::exchange(scene, other);
+    std::vector<PlannedDecals> tables = plan.tables;
+    try {
+        for (PlannedDecals& table : plan.tables) table.take_rows(table, {scene, cryptomatte});
+        upload_constants();
+    } catch (...) {
+        scene = std::move(before);
+        plan.tables = std::move(tables);
+        throw;
+    }
+}
+
 void Pass::Impl::upload_constants() {
     const FrameConstants constants = frame_constants(plan, {scene, cryptomatte}, camera, size);
     const bool wide = options.fp64;
@@ -129,6 +151,10 @@ void Pass::Impl::upload_constants() {
     decals = structs(device, constants.decals, wide);
     light_setup = structs(device, std::vector{constants.lighting}, wide);
     lights = structs(device, constants.lights, wide);
+    if (plan.tiles && plan.projectors != constants.projectors.size()) {  // other rows
+        plan.projectors = constants.projectors.size();
+        bins = DecalBins(device, built.program, plan, options.lanes);
+    }
     if (plan.tiles) bins.set_camera(constants, camera, structs(device, constants.projectors, wide));
 }
 
@@ -157,8 +183,8 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         cl::Kernel& kernel = kernels[k];
         cl_uint i = 0;
-        for (const cl::Buffer* buffer :
-             {&frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
+        for (const cl::Buffer* buffer : std::initializer_list<const cl::Buffer*>{
+                 &frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
         if (plan.tiles) bins.set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));
@@ -193,6 +219,19 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     if (plan.tiles) bins.used_until(after.front());
     if (!scratch.empty()) scratch_use = {after.front()};
     return after.front();
+}
+
+Pass::Impl::~Impl() {
+    try {
+        save_if_complete();
+    } catch (const std::exception&) {
+        // the next start compiles again
+    }
+}
+
+void Pass::Impl::save_if_complete() {
+    if (saved || first_run() == nullptr) return;
+    if (first_run.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() == CL_COMPLETE) save();
 }
 
 void Pass::Impl::save() {

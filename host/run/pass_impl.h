@@ -30,7 +30,8 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     std::vector<cl::Event> scratch_use;  ///< the evaluation that scratch belongs to until it is done
     double texture_seconds = 0, build_seconds = 0;
     bool saved = false;
-    bool warm = false;  ///< the kernels ran before
+    cl::Event first_run;  ///< of kernels that callers enqueued
+    bool warm = false;    ///< the kernels ran before
 
     /// Textures come from the store, if there is one.
     Impl(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
@@ -42,14 +43,22 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     };
 
     void set_camera(const Camera& other);
+    void set_parameters(const Scene& other);
     /// Evaluates what depends on the camera and on the scene's numbers, and has it on the device.
     void upload_constants();
     /// Evaluates the rows, or only `some` of their work-items where any are given.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                       const std::vector<cl::Event>& wait, std::span<const Items> some = {});
 
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
     /// Writes the program to the disk cache, once; after the first kernels ran.
     void save();
+    /// The same for kernels that callers enqueued, which nobody here waits for: nothing is done until the first of them
+    /// are complete.
+    void save_if_complete();
     std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
 };
 

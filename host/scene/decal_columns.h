@@ -13,7 +13,7 @@ namespace wrinkle::scene {
 enum class Field { number, name, truth };
 
 /// A column of a table of decals. `read` takes a field that is not empty, `take` a number, and each says what is wrong
-/// with it, or nothing; `write` gives the field.
+/// with it, or nothing; `wrong` says what is wrong with the value that a row holds; `write` gives the field.
 struct DecalColumn {
     const char* name;
     const char* key;   ///< of TOML; the columns that share one are its elements, and follow one another
@@ -21,6 +21,7 @@ struct DecalColumn {
     Field field;
     std::string (*read)(std::string_view field, Projector& row);
     std::string (*take)(double value, Projector& row);  ///< null: the column holds text only
+    std::string (*wrong)(const Projector& row);
     std::string (*write)(const Projector& row);
 };
 

@@ -17,19 +17,19 @@ constexpr std::size_t kMostProblems = 20;
 
 /// How messages begin that are about a row; `rows` were begun until then.
 std::string row_prefix(DecalReader::Form form, std::size_t rows) {
-    if (form == DecalReader::Form::npy) return fmt::format("row {}: ", rows - 1);
+    if (form == DecalReader::Form::npy || form == DecalReader::Form::memory) return fmt::format("row {}: ", rows - 1);
     return form == DecalReader::Form::toml ? fmt::format("[[decal]] {}: ", rows) : std::string{};
 }
 
 }  // namespace
 
 void DecalReader::complain(std::uint32_t line, std::string text) {
-    last_line_ = line, last_row_ = rows_.size();
+    last_line_ = line, last_row_ = begun();
     if (count_++ < kMostProblems) problems_.add(line, row_prefix(form_, last_row_) + text);
 }
 
 void DecalReader::complain_of_file(std::uint32_t line, std::string text) {
-    last_line_ = line, last_row_ = rows_.size();
+    last_line_ = line, last_row_ = begun();
     if (count_++ < kMostProblems) problems_.add(line, std::move(text));
 }
 
@@ -60,7 +60,7 @@ void DecalReader::begin_row(std::uint32_t line) {
 }
 
 std::string DecalReader::named(const DecalColumn& column) const {
-    if (form_ != Form::toml) return "column " + quote(column.name);
+    if (!by_key()) return "column " + quote(column.name);
     if (column.size == 0) return quote(column.key);
     const DecalColumn* first = &column;
     while (first != decal_columns().data() && std::string_view((first - 1)->key) == column.key) --first;
@@ -71,10 +71,10 @@ std::string DecalReader::listed(std::initializer_list<const char*> columns) cons
     std::vector<std::string> names;
     for (const char* name : columns) {
         const auto column = std::ranges::find(decal_columns(), std::string_view(name), &DecalColumn::name);
-        const std::string shown = quote(form_ == Form::toml ? column->key : column->name);
+        const std::string shown = quote(by_key() ? column->key : column->name);
         if (std::ranges::find(names, shown) == names.end()) names.push_back(shown);
     }
-    return fmt::format("{}{}", form_ == Form::toml ? "" : "columns ", fmt::join(names, ", "));
+    return fmt::format("{}{}", by_key() ? "" : "columns ", fmt::join(names, ", "));
 }
 
 void DecalReader::refuse(const DecalColumn& column, const std::string& found, const std::string& wrong) {
@@ -97,15 +97,13 @@ void DecalReader::read_number(const DecalColumn& column, double value) {
 }
 
 /// What single fields cannot show.
-void DecalReader::end_row() {
-    const Projector& row = rows_.back();
+void DecalReader::check_together(const Projector& row, std::uint32_t line) {
     const auto wrong = [&](std::initializer_list<const char*> columns, const char* text) {
-        complain(row.line, fmt::format("{} {}", listed(columns), text));
+        complain(line, fmt::format("{} {}", listed(columns), text));
     };
     if (row.texture >= textures_)
-        complain(row.line,
-                 fmt::format("{}\"texture\" is {}; the layer has {} texture{}, counted from 0",
-                             form_ == Form::toml ? "" : "column ", row.texture, textures_, textures_ == 1 ? "" : "s"));
+        complain(line, fmt::format("{}\"texture\" is {}; the layer has {} texture{}, counted from 0",
+                                   by_key() ? "" : "column ", row.texture, textures_, textures_ == 1 ? "" : "s"));
     if (row.region[0] >= row.region[2] || row.region[1] >= row.region[3])
         wrong({"s0", "t0", "s1", "t1"}, "must have s0 below s1, and t0 below t1");
     if (row.angle_fade[0] > row.angle_fade[1])
@@ -115,6 +113,15 @@ void DecalReader::end_row() {
     if (parallel(row.axis_x, row.axis_y))
         wrong({"axis_x_x", "axis_x_y", "axis_x_z", "axis_y_x", "axis_y_y", "axis_y_z"},
               "must be two axes, not parallel, nor zero");
+}
+
+void DecalReader::check(const Projector& row) {
+    ++checked_;
+    const std::size_t before = count_;
+    for (const DecalColumn& column : decal_columns())
+        if (const std::string wrong = column.wrong(row); !wrong.empty())
+            complain(0, fmt::format("{} {}", named(column), wrong));
+    if (count_ == before) check_together(row, 0);
 }
 
 void DecalReader::append(std::vector<Projector> rows) {

@@ -11,11 +11,11 @@
 
 namespace wrinkle::scene {
 
-/// The rows of a table of decals while they are read, and what is wrong with them: the first mistakes in full, the rest
-/// as a number. Mistakes are told in the words of the table's form.
+/// The rows of a table of decals while they are read, or checked, and what is wrong with them: the first mistakes in
+/// full, the rest as a number. Mistakes are told in the words of the table's form.
 class DecalReader {
 public:
-    enum class Form { csv, npy, toml };
+    enum class Form { csv, npy, toml, memory };
     /// `file` as messages show it. `textures`: how many textures rows may name.
     DecalReader(const std::string& file, std::size_t textures, Form form)
         : problems_(file), textures_(textures), form_(form) {}
@@ -38,7 +38,9 @@ public:
     void read_number(const DecalColumn& column, double value);
     /// A field that is no text or number for this column.
     void refuse(const DecalColumn& column, const std::string& found, const std::string& wrong);
-    void end_row();
+    void end_row() { check_together(rows_.back(), rows_.back().line); }
+    /// A row that is no file's: all of the above at once.
+    void check(const Projector& row);
     /// Rows that another reader finished.
     void append(std::vector<Projector> rows);
 
@@ -46,11 +48,14 @@ public:
     std::vector<Projector> finish();
 
 private:
+    std::size_t begun() const { return rows_.size() + checked_; }
+    bool by_key() const { return form_ == Form::toml || form_ == Form::memory; }
+    void check_together(const Projector& row, std::uint32_t line);
     std::string named(const DecalColumn& column) const;
     std::string listed(std::initializer_list<const char*> columns) const;
 
     Problems problems_;
-    std::size_t textures_, count_ = 0;
+    std::size_t textures_, count_ = 0, checked_ = 0;
     Form form_;
     std::uint32_t line_ = 0, last_line_ = 0;  ///< of the field being read; of the last mistake
     std::size_t last_row_ = 0;

@@ -9,13 +9,13 @@
 namespace wrinkle::scene {
 namespace fs = std::filesystem;
 
-std::string why_not_readable(const fs::path& file, bool pattern) {
+std::string why_not_readable(const fs::path& file, bool pattern, const char* from) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (fs::is_directory(status)) return fmt::format("{} is a folder, not a file", file.string());
     if (fs::exists(status)) return {};
     if (!has_frame_pattern(file))
-        return fmt::format("there is no file {} (relative paths start from the scene's folder)", file.string());
+        return fmt::format("there is no file {} (relative paths start from {})", file.string(), from);
     if (!pattern)
         return fmt::format("there is no file {} (frame patterns are for the G-buffer and its camera)", file.string());
     const fs::path folder = file.parent_path();

@@ -1,15 +1,25 @@
 #include "scene/layer_readers.h"
 
 namespace wrinkle::scene {
+namespace {
+
+const char* name_of(Content content) {
+    const char* const names[] = {"height", "normal", "slope", "object_normal"};
+    return names[static_cast<int>(content)];
+}
+
+}  // namespace
 
 void read_place(Table& table, Layer& layer) {
     table.read("footprint", layer.footprint);
-    if (auto mask = table.table("mask", "mask of " + table.where())) read_mask(*mask, layer.mask);
+    const bool masked = layer.mask.object || layer.mask.cryptomatte || layer.mask.channel || layer.mask.texture;
+    if (auto mask = table.table("mask", "mask of " + table.where(), masked || layer.mask.invert))
+        read_mask(*mask, layer.mask);
 }
 
 void read_weight(Table& table, Layer& layer) {
     table.read("scale", layer.scale);
-    table.choose("blend", layer.blend, {{"add", Blend::add}, {"subtract", Blend::subtract}});
+    table.choose("blend", layer.blend, {{"add", Blend::add}, {"subtract", Blend::subtract}}, Compiled::no);
     read_place(table, layer);
 }
 
@@ -24,6 +34,28 @@ void read_project(Table& table, Layer& layer) { table.read("project", layer.proj
 void read_texture_file(Table& table, TextureUse& texture) {
     table.require("texture");
     table.read_file("texture", texture.file);
+    if (table.visits()) visit_texture(table, texture);
+}
+
+void read_texture_of(Table& table, TextureUse& texture, Content content) {
+    read_texture_file(table, texture);
+    if (table.visits()) table.choose("content", texture.content, {{name_of(content), content}});
+}
+
+void visit_texture(Table& table, TextureUse& texture) {
+    table.choose("content", texture.content,
+                 {{"height", Content::height},
+                  {"normal", Content::normal},
+                  {"slope", Content::slope},
+                  {"object_normal", Content::object_normal}});
+    table.choose("upscale", texture.upscale,
+                 {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}, {"taps", Upscale::taps}});
+    table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
+    table.compiled_in("y", texture.y_down);
+    table.choose("encoding", texture.encoding,
+                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
+    table.choose("slopes", texture.unit,
+                 {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}, {"metre", SlopeUnit::metre}});
 }
 
 void read_green(Table& table, TextureUse& texture) { table.choose("y", texture.y_down, {{"+", false}, {"-", true}}); }

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <variant>
+
 #include "scene/readers.h"
 
 /// What the readers of the layer kinds share.
 namespace wrinkle::scene {
+
+/// What a reader goes on from: the bump that the layer holds, or a new one of this kind.
+template <class Bump>
+Bump held(const Layer& layer) {
+    const Bump* bump = std::get_if<Bump>(&layer.bump);
+    return bump ? *bump : Bump{};
+}
 
 /// footprint, mask
 void read_place(Table& table, Layer& layer);
@@ -15,6 +24,10 @@ void read_weight_without_levels(Table& table, Layer& layer);
 void read_project(Table& table, Layer& layer);
 /// texture
 void read_texture_file(Table& table, TextureUse& texture);
+/// The same, for kinds whose texture holds one content only.
+void read_texture_of(Table& table, TextureUse& texture, Content content);
+/// What a texture in memory holds, whether files of the kind can say so or not; all of it is compiled in.
+void visit_texture(Table& table, TextureUse& texture);
 /// y
 void read_green(Table& table, TextureUse& texture);
 /// upscale

@@ -58,7 +58,7 @@ Figure load_figure(LayerKinds kinds, const std::filesystem::path& file) {
     out.scene.file = file;
     read_scene(root, kinds, out.scene);
     if (auto table = root.table("figure", "[figure]")) read_figure(*table, out);
-    for (Table& table : root.tables("panel")) read_panel(table, out, out.panels.emplace_back());
+    for (Table& table : root.tables("panel", 0)) read_panel(table, out, out.panels.emplace_back());
     if (out.panels.empty() && !root.is_bad("panel"))
         document.problems.add(0,
                               "needs a [[panel]], at least caption = \"...\" and layers = [] (to evaluate a scene, "

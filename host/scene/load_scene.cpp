@@ -12,17 +12,20 @@ namespace wrinkle::scene {
 namespace {
 
 void read_layers(Table& root, LayerKinds kinds, std::vector<Layer>& out) {
-    std::map<std::string, std::uint32_t> lines;
-    for (Table& table : root.tables("layer")) {
-        Layer layer;
-        read_layer(table, kinds, out.size() + 1, layer);
+    std::map<std::string, std::string> places;
+    std::vector<Table> tables = root.tables("layer", out.size());
+    root.compiled_in("layer", static_cast<int>(tables.size()));
+    out.resize(tables.size());
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        Table& table = tables[i];
+        read_layer(table, kinds, i + 1, out[i]);
         const std::uint32_t line = table.has("name") ? table.line_of("name") : table.line();
-        const auto [earlier, is_new] = lines.emplace(layer.name, line);
+        const auto [earlier, is_new] = places.emplace(
+            out[i].name, root.visits() ? fmt::format("layer {}", i + 1) : fmt::format("the layer at line {}", line));
         if (!is_new)
-            root.document().problems.add(line, fmt::format("the name {} is taken by the layer at line {}; names are "
-                                                           "unique",
-                                                           quote(layer.name), earlier->second));
-        out.push_back(std::move(layer));
+            root.document().problems.add(
+                line, fmt::format("the name {} {}is taken by {}; names are unique", quote(out[i].name),
+                                  root.visits() ? fmt::format("of layer {} ", i + 1) : "", earlier->second));
     }
 }
 
@@ -34,10 +37,11 @@ void read_lights(Table& root, Lighting& out) {
         relight_is_sound = !table->is_bad("relight");
         line = table->line_of("relight");
     }
-    const std::vector<Table> lights = root.tables("light");
-    for (Table table : lights) read_light(table, out.lights.emplace_back());
+    std::vector<Table> lights = root.tables("light", out.lights.size());
+    out.lights.resize(lights.size());
+    for (std::size_t i = 0; i < lights.size(); ++i) read_light(lights[i], out.lights[i]);
     if (!relight_is_sound || root.is_bad("light") || root.is_bad("lighting")) return;
-    if (out.relight == Relight::off && !lights.empty())
+    if (out.relight == Relight::off && !lights.empty() && !root.visits())
         root.document().problems.add(lights.front().line(),
                                      "[[light]] has no effect while relighting is off; set relight = \"lit\" or "
                                      "\"ratio\" in [lighting], or remove the lights");
@@ -66,10 +70,12 @@ toml::table parse_scene_file(const std::filesystem::path& file) {
 }
 
 void read_scene(Table& root, LayerKinds kinds, Scene& out) {
-    require_table(root, "gbuffer", "file = \"frame.exr\"");
-    require_table(root, "camera", "from = \"exr\"");
+    if (!root.visits()) {
+        require_table(root, "gbuffer", "file = \"frame.exr\"");
+        require_table(root, "camera", "from = \"exr\"");
+    }
     if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
-    if (auto table = root.table("camera", "[camera]")) read_camera(*table, out.camera);
+    if (auto table = root.table("camera", "[camera]", false)) read_camera(*table, out.camera);
     read_layers(root, kinds, out.layers);
     read_lights(root, out.lighting);
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);

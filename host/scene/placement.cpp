@@ -1,7 +1,6 @@
 #include "scene/placement.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace wrinkle {
 
@@ -31,9 +30,7 @@ namespace scene {
 
 void read_placement(Table& table, Placement& out) {
     table.read("translate", out.translate);
-    Vec3 degrees{};
-    if (table.read("rotate", degrees))
-        for (std::size_t k = 0; k < 3; ++k) out.rotate[k] = degrees[k] * std::numbers::pi / 180;
+    table.read_degrees("rotate", out.rotate);
     if (table.has("scale") && !table.is_array("scale")) {
         double all = 1;
         if (table.read("scale", all)) out.scale = {all, all, all};

@@ -90,13 +90,16 @@ void read_roles(Table& table, std::map<std::string, std::string>& out) {
 }  // namespace
 
 void read_gbuffer(Table& table, GBufferSource& out) {
-    table.require("file");
-    table.read_file("file", out.file, Table::FramePattern::allowed);
+    if (!table.visits()) {
+        table.require("file");
+        table.read_file("file", out.file, Table::FramePattern::allowed);
+        if (auto roles = table.table("roles", "roles of " + table.where())) read_roles(*roles, out.roles);
+    }
     table.choose("geometry", out.geometry,
                  {{"auto", Geometry::automatic}, {"depth", Geometry::depth}, {"position", Geometry::position}});
     table.choose("depth", out.depth,
-                 {{"auto", DepthKind::automatic}, {"planar", DepthKind::planar}, {"ray", DepthKind::ray}});
-    if (auto roles = table.table("roles", "roles of " + table.where())) read_roles(*roles, out.roles);
+                 {{"auto", DepthKind::automatic}, {"planar", DepthKind::planar}, {"ray", DepthKind::ray}},
+                 Compiled::no);
     table.finish();
 }
 
@@ -130,17 +133,18 @@ void read_output(Table& table, Output& out) {
     table.read("dp_dx", out.dp_dx);
     table.read("dp_dy", out.dp_dy);
     table.read("marked", out.marked);
-    table.read("condition", out.condition);
-    table.read("passthrough", out.passthrough);
-    table.read("half", out.half);
-    table.read("png", out.png);
+    table.read("condition", out.condition, Compiled::no);
+    table.read("passthrough", out.passthrough, Compiled::no);
+    table.read("half", out.half, Compiled::no);
+    table.read("png", out.png, Compiled::no);
     table.finish();
 }
 
 void read_budget(Table& table, ErrorBudget& out) {
     table.require("max_error");
-    double degrees = 0;
-    if (table.read("max_error", degrees, {.low = 0, .high = 180, .low_is_allowed = false})) out.max_error = degrees;
+    constexpr Range angle{.low = 0, .high = 180, .low_is_allowed = false};
+    double degrees = out.max_error.value_or(angle.high);
+    if (table.read("max_error", degrees, angle) && !table.visits()) out.max_error = degrees;
     table.read("sample", out.sample, 1, std::numeric_limits<int>::max());
     table.read("seed", out.seed, 0, std::numeric_limits<int>::max());
     table.finish();

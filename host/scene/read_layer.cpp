@@ -6,7 +6,20 @@
 
 namespace wrinkle::scene {
 
+namespace {
+
+void visit_layer(Table& table, LayerKinds kinds, Layer& layer) {
+    if (table.read("name", layer.name, Compiled::no)) table.rename("layer " + quote(layer.name));
+    const LayerKind& kind = kind_of(kinds, layer);
+    table.compiled_in("kind", std::string(kind.name));
+    table.compiled_in("project", layer.project);
+    kind.read(table, layer);
+}
+
+}  // namespace
+
 void read_layer(Table& table, LayerKinds kinds, std::size_t number, Layer& out) {
+    if (table.visits()) return visit_layer(table, kinds, out);
     out.location = table.location();
     const bool is_named = table.read("name", out.name);
     if (is_named) table.rename("[[layer]] " + quote(out.name));

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <numbers>
+#include <iterator>
 
 #include "base/vec.h"
 #include "scene/kinds.h"
@@ -47,11 +47,10 @@ void read_spot(Table& table, Light& light) {
     table.read_degrees("outer_angle", light.outer_angle, {.low = 0, .high = 180});
     const bool is_sound = !table.is_bad("inner_angle") && !table.is_bad("outer_angle");
     if (is_sound && !(light.inner_angle < light.outer_angle)) {
-        const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
         table.complain(
             table.has("outer_angle") ? "outer_angle" : "inner_angle",
             fmt::format("must leave inner_angle ({:.4g}) less than outer_angle ({:.4g} degrees from the axis)",
-                        degrees(light.inner_angle), degrees(light.outer_angle)));
+                        to_degrees(light.inner_angle), to_degrees(light.outer_angle)));
     }
 }
 
@@ -60,7 +59,13 @@ constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spo
 }  // namespace
 
 void read_light(Table& table, Light& out) {
-    const Kind<Light>* kind = choose_kind<Light>(table, kinds);
+    // In the order of LightKind. Kernels read the kind of a light: it is not compiled in.
+    const auto held = static_cast<std::size_t>(out.kind);
+    if (table.visits() && held >= std::size(kinds))
+        table.complain("kind", fmt::format("is number {}, which is none of those there are", held));
+    const Kind<Light>* kind = !table.visits()           ? choose_kind<Light>(table, kinds)
+                              : held < std::size(kinds) ? &kinds[held]
+                                                        : nullptr;
     read_as_kind<Light>(table, kinds, kind, out);
 }
 

@@ -41,26 +41,26 @@ void read_uv(Table& table, UvMapping& out) {
 }
 
 void read_mask(Table& table, Mask& out) {
-    double object = 0;
-    if (table.read("object", object)) out.object = object;
-    std::string text;
-    if (table.read("cryptomatte", text)) {
-        if (text.front() == '#' && !is_hash(text))
-            table.complain("cryptomatte",
-                           fmt::format("is {}; a hash is # and 8 hex digits, such as \"#1a2b3c4d\"", quote(text)));
-        out.cryptomatte = text;
-    }
-    if (table.read("channel", text)) out.channel = text;
+    table.read("object", out.object);
+    if (table.read("cryptomatte", out.cryptomatte, Compiled::no) && out.cryptomatte->front() == '#' &&
+        !is_hash(*out.cryptomatte))
+        table.complain("cryptomatte", fmt::format("is {}; a hash is # and 8 hex digits, such as \"#1a2b3c4d\"",
+                                                  quote(*out.cryptomatte)));
+    table.read("channel", out.channel);
     table.read("invert", out.invert);
-    MaskTexture texture;
+    if (table.visits()) table.compiled_in("texture", out.texture.has_value());
+    if (out.texture) table.require("texture");
+    MaskTexture texture = out.texture.value_or(MaskTexture{});
     const bool has_texture = table.read_file("texture", texture.file);
-    if (auto uv = table.table("uv", "uv of " + table.where())) {
+    if (auto uv = table.table("uv", "uv of " + table.where(), out.texture.has_value())) {
         read_uv(*uv, texture.uv);
-        if (!table.has("texture")) table.complain("uv", "has an effect only with the key \"texture\"");
+        if (!table.visits() && !table.has("texture"))
+            table.complain("uv", "has an effect only with the key \"texture\"");
     }
     if (has_texture) out.texture = texture;
-    const auto has = [&](const char* key) { return table.has(key); };
-    if (!has("object") && !has("cryptomatte") && !has("channel") && !has("texture"))
+    const auto has = [&](const char* key, bool held) { return table.has(key) || (table.visits() && held); };
+    if (!has("object", out.object.has_value()) && !has("cryptomatte", out.cryptomatte.has_value()) &&
+        !has("channel", out.channel.has_value()) && !has("texture", out.texture.has_value()))
         table.complain_here(
             fmt::format("{} needs one of the keys object, cryptomatte, channel, texture", table.where()));
     table.finish();

@@ -27,6 +27,7 @@ void read_fractal(Table& table, NoiseLayer& bump) {
     // The bounds keep the frequency and the amplitude of a 16th octave within float32.
     table.read("frequency", bump.frequency, {.low = 0, .high = 1e9, .low_is_allowed = false});
     table.read("octaves", bump.octaves, 1, 16);
+    table.compiled_in("octaves", bump.octaves);
     table.read("lacunarity", bump.lacunarity, {.low = 0, .high = 16, .low_is_allowed = false});
     table.read("gain", bump.gain, {.low = 0, .high = 16});
     table.choose("fractal", bump.fractal,
@@ -42,7 +43,7 @@ void read_fractal(Table& table, NoiseLayer& bump) {
 void read_simplex(Table& table, NoiseLayer& bump) {
     constexpr double kMostCells = 1 << 20;  // what the kernel's lattice can tell apart
     table.read_degrees("rotation", bump.rotation);
-    if (table.read("period", bump.period, {.low = 0, .high = kMostCells})) {
+    if (table.read("period", bump.period, {.low = 0, .high = kMostCells}) && bump.period != Vec3{}) {
         const double last = std::pow(bump.lacunarity, bump.octaves - 1);
         if (std::ranges::any_of(bump.period, [](double cells) { return cells != std::floor(cells); }))
             table.complain("period",
@@ -54,26 +55,26 @@ void read_simplex(Table& table, NoiseLayer& bump) {
             table.complain("period", fmt::format("is {} cells for the last octave; at most {} can be told apart",
                                                  std::ranges::max(bump.period) * last, kMostCells));
     }
-    for (const char* key : {"rotation", "period"})
-        table.only_with(key, bump.type == NoiseType::simplex, "type", "simplex");
+    const bool simplex = bump.type == NoiseType::simplex;
+    for (const char* key : {"rotation", "period"}) table.only_with(key, simplex, "type", "simplex");
+    if (simplex) table.compiled_in("rotation", bump.rotation != 0);
+    for (const double cells : bump.period)
+        if (simplex) table.compiled_in("period", cells != 0);
 }
 
 bool read_interval(Table& table, const char* key, std::optional<std::array<double, 2>>& out) {
-    std::array<double, 2> interval{};
-    if (!table.read(key, interval)) return false;
-    if (!(interval[0] < interval[1])) table.complain(key, "must be [low, high], the smaller number first");
-    out = interval;
+    if (!table.read(key, out)) return false;
+    if (!(out->front() < out->back())) table.complain(key, "must be [low, high], the smaller number first");
     return true;
 }
 
 void read_shape(Table& table, NoiseShape& shape) {
-    double number = 0;
     read_interval(table, "remap", shape.remap);
     int chosen = 0;
-    if (table.read("power", number, {.low = 1, .high = 100})) shape.power = number, ++chosen;
+    if (table.read("power", shape.power, Range{.low = 1, .high = 100})) ++chosen;
     if (read_interval(table, "smoothstep", shape.smoothstep)) ++chosen;
-    if (table.read("bias", number, {.low = 0, .high = 1, .low_is_allowed = false, .high_is_allowed = false}))
-        shape.bias = number, ++chosen;
+    if (table.read("bias", shape.bias, Range{.low = 0, .high = 1, .low_is_allowed = false, .high_is_allowed = false}))
+        ++chosen;
     if (chosen > 1)
         table.complain_here(
             fmt::format("{} has more than one of the keys power, smoothstep, bias; choose one", table.where()));

@@ -24,18 +24,19 @@ void read_plane_texture(Table& table, TextureUse& texture) {
 }
 
 /// One plane's own source: texture or noise, and scale.
-PlaneSource read_plane(Table& table) {
-    PlaneSource plane;
+PlaneSource read_plane(Table& table, PlaneSource plane) {
+    const auto* held_noise = std::get_if<NoiseLayer>(&plane.content);
+    const auto* held_texture = std::get_if<TextureUse>(&plane.content);
     table.read("scale", plane.scale);
-    if (auto noise = table.table("noise", "noise of " + table.where())) {
-        NoiseLayer bump;
+    if (auto noise = table.table("noise", "noise of " + table.where(), held_noise != nullptr)) {
+        NoiseLayer bump = held_noise ? *held_noise : NoiseLayer{};
         read_noise_source(*noise, bump);
         noise->finish();
         plane.content = bump;
         table.know("texture");
         if (table.has("texture")) table.complain("texture", "and \"noise\" exclude each other; choose one");
     } else if (!table.is_bad("noise")) {
-        TextureUse texture;
+        TextureUse texture = held_texture ? *held_texture : TextureUse{};
         read_plane_texture(table, texture);
         plane.content = texture;
     }
@@ -50,8 +51,9 @@ void read_planes(Table& table, TriplanarLayer& bump) {
     if (auto planes = table.table("planes", "planes of " + table.where())) {
         const char* const names[] = {"x", "y", "z"};
         for (std::size_t k = 0; k < 3; ++k)
-            if (auto plane = planes->table(names[k], fmt::format("plane {} of {}", names[k], table.where())))
-                bump.planes[k] = read_plane(*plane), ++own;
+            if (auto plane = planes->table(names[k], fmt::format("plane {} of {}", names[k], table.where()),
+                                           bump.planes[k].has_value()))
+                bump.planes[k] = read_plane(*plane, bump.planes[k].value_or(PlaneSource{})), ++own;
         planes->finish();
     }
     if (own < 3) return read_plane_texture(table, bump.texture);

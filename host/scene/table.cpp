@@ -31,12 +31,45 @@ bool has_control_character(std::string_view text) {
 
 }  // namespace
 
-const toml::node* Table::find(std::string_view key) {
+double to_radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+double to_degrees(double radians) {
+    const double degrees = radians * 180 / std::numbers::pi, whole = std::round(degrees);
+    return std::abs(degrees - whole) <= 1e-13 * std::abs(whole) ? whole : degrees;
+}
+
+void Table::learn(std::string_view key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-    return values_->get(key);
+}
+
+const toml::node* Table::find(std::string_view key) {
+    learn(key);
+    return visits() ? nullptr : values_->get(key);
+}
+
+template <class T>
+Table::Value Table::value_of(std::string_view key, const T& held) {
+    if (visits()) return Value(std::unique_ptr<toml::node>(new toml::value<T>(held)));
+    return Value(find(key));
+}
+
+/// Texts that are empty are not given.
+Table::Value Table::text_of(std::string_view key, const std::string& held) {
+    if (!visits()) return Value(find(key));
+    if (!held.empty()) return Value(std::unique_ptr<toml::node>(new toml::value<std::string>(held)));
+    if (std::find(required_.begin(), required_.end(), key) != required_.end()) {
+        bad_.emplace(key);
+        complain_here(fmt::format("{} needs {}", where_, quote(key)));
+    }
+    return Value(static_cast<const toml::node*>(nullptr));
+}
+
+void Table::note(std::string_view key, std::string value) {
+    document_->structure.push_back({where_, std::string(key), std::move(value)});
 }
 
 std::uint32_t Table::line_of(std::string_view key) const {
+    if (visits()) return line_;
     for (const auto& [name, value] : *values_)
         if (name.str() == key && name.source().begin.line > 0) return name.source().begin.line;
     return line_;
@@ -44,6 +77,7 @@ std::uint32_t Table::line_of(std::string_view key) const {
 
 std::vector<std::string> Table::keys() const {
     std::vector<std::string> out;
+    if (visits()) return out;
     for (const auto& [name, value] : *values_) out.emplace_back(name.str());
     return out;
 }
@@ -59,8 +93,9 @@ bool Table::wrong_type(std::string_view key, std::string_view wanted, const toml
 }
 
 void Table::require(std::string_view key) {
-    find(key);
-    if (has(key)) return;
+    learn(key);
+    if (visits()) required_.emplace_back(key);
+    if (visits() || has(key)) return;
     bad_.emplace(key);
     complain_here(fmt::format("{} needs the key {}", where_, quote(key)));
 }
@@ -70,16 +105,17 @@ void Table::only_with(std::string_view key, bool holds, std::string_view selecto
     complain(key, fmt::format("has an effect only with {} = {}; remove it or set that", selector, quote(value)));
 }
 
-bool Table::read(std::string_view key, bool& out) {
-    const toml::node* node = find(key);
+bool Table::read(std::string_view key, bool& out, Compiled compiled) {
+    const Value node = value_of(key, out);
     if (!node) return false;
     if (!node->is_boolean()) return wrong_type(key, "true or false", *node);
     out = node->as_boolean()->get();
+    if (compiled == Compiled::yes) compiled_in(key, out);
     return true;
 }
 
 bool Table::read(std::string_view key, int& out, int low, int high) {
-    const toml::node* node = find(key);
+    const Value node = value_of(key, std::int64_t{out});
     if (!node) return false;
     const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
     if (!node->is_integer()) return wrong_type(key, wanted, *node);
@@ -105,30 +141,41 @@ bool Table::number(std::string_view key, const toml::node& node, double& out, co
 }
 
 bool Table::read(std::string_view key, double& out, const Range& range) {
-    const toml::node* node = find(key);
+    const Value node = value_of(key, out);
     return node && number(key, *node, out, range, "");
 }
 
+bool Table::visit_numbers(std::string_view key, double* held, std::size_t count, const Range& range,
+                          std::string_view element) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (!number(key, toml::value<double>(held[i]), held[i], range, element)) return false;
+    return true;
+}
+
 bool Table::read_numbers(std::string_view key, double* out, std::size_t count, const Range& range) {
+    constexpr const char* element = "an array with each element ";
+    if (visits()) return visit_numbers(key, out, count, range, element);
     const toml::node* node = find(key);
     if (!node) return false;
     const toml::array* array = node->as_array();
     if (!array || array->size() != count) return wrong_type(key, fmt::format("{} numbers in []", count), *node);
     std::vector<double> values(count);
     for (std::size_t i = 0; i < count; ++i)
-        if (!number(key, (*array)[i], values[i], range, "an array with each element ")) return false;
+        if (!number(key, (*array)[i], values[i], range, element)) return false;
     std::copy(values.begin(), values.end(), out);
     return true;
 }
 
 bool Table::read_degrees(std::string_view key, double& radians, const Range& degrees) {
-    double value = 0;
+    double value = to_degrees(radians);
     if (!read(key, value, degrees)) return false;
-    radians = value * std::numbers::pi / 180;
+    radians = to_radians(value);
     return true;
 }
 
 bool Table::read_rows(std::string_view key, double* out, std::size_t size) {
+    constexpr const char* element = "a matrix with each element ";
+    if (visits()) return visit_numbers(key, out, size * size, any_number, element);
     const toml::node* node = find(key);
     if (!node) return false;
     const toml::array* rows = node->as_array();
@@ -141,15 +188,14 @@ bool Table::read_rows(std::string_view key, double* out, std::size_t size) {
     }
     std::vector<double> matrix(size * size);
     for (std::size_t i = 0; i < size * size; ++i)
-        if (!number(key, (*(*rows)[i / size].as_array())[i % size], matrix[i], any_number,
-                    "a matrix with each element "))
-            return false;
+        if (!number(key, (*(*rows)[i / size].as_array())[i % size], matrix[i], any_number, element)) return false;
     std::copy(matrix.begin(), matrix.end(), out);
     return true;
 }
 
-bool Table::read(std::string_view key, std::string& out) {
-    const toml::node* node = find(key);
+bool Table::read(std::string_view key, std::string& out, Compiled compiled) {
+    const Value node = text_of(key, out);
+    if (visits() && compiled == Compiled::yes) note(key, out);
     if (!node) return false;
     if (!node->is_string()) return wrong_type(key, "a text in \"\"", *node);
     const std::string& text = node->as_string()->get();
@@ -173,11 +219,12 @@ bool Table::read(std::string_view key, std::vector<std::string>& out) {
 }
 
 bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern) {
-    std::string name;
+    std::string name = visits() ? out.string() : "";
     if (!read(key, name)) return false;
     const std::filesystem::path file = (document_->folder / name).lexically_normal();
     if (document_->check_files) {
-        const std::string problem = why_not_readable(file, pattern == FramePattern::allowed);
+        const std::string problem = why_not_readable(file, pattern == FramePattern::allowed,
+                                                     visits() ? "the working directory" : "the scene's folder");
         if (!problem.empty()) {
             complain(key, fmt::format("is {}: {}", quote(name), problem));
             return false;
@@ -202,7 +249,19 @@ std::optional<std::size_t> Table::read_choice(std::string_view key, const std::v
     return std::nullopt;
 }
 
-std::optional<Table> Table::table(std::string_view key, std::string where) {
+bool Table::visit_choice(std::string_view key, const char* held, int number, const std::vector<std::string>& names,
+                         Compiled compiled) {
+    if (!held && !is_bad(key))
+        complain(key, fmt::format("is number {}, which is none of those allowed: {}", number, quote_list(names)));
+    if (held && compiled == Compiled::yes) note(key, held);
+    return held != nullptr;
+}
+
+std::optional<Table> Table::table(std::string_view key, std::string where, bool held) {
+    if (visits()) {
+        note(key, held ? "given" : "not given");
+        return held ? std::optional(Table(*document_, std::move(where))) : std::nullopt;
+    }
     const toml::node* node = find(key);
     if (!node) return std::nullopt;
     if (node->is_table()) return Table(*document_, *node->as_table(), std::move(where), line_of(key));
@@ -211,8 +270,9 @@ std::optional<Table> Table::table(std::string_view key, std::string where) {
     return std::nullopt;
 }
 
-std::vector<Table> Table::tables(std::string_view key) {
+std::vector<Table> Table::tables(std::string_view key, std::size_t held) {
     std::vector<Table> out;
+    for (std::size_t i = 0; visits() && i < held; ++i) out.emplace_back(*document_, fmt::format("{} {}", key, i + 1));
     const toml::node* node = find(key);
     if (!node) return out;
     const std::string wanted = fmt::format("an array of tables: [[{}]]", key);

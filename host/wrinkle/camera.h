@@ -46,4 +46,4 @@ std::optional<PinholeRays> pinhole_rays(const Camera& camera, Size size);
 /// World point to pixel coordinates (x right, y down); nothing for points at or behind the eye.
 std::optional<std::array<double, 2>> project(const Camera& camera, Size size, Vec3 point);
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -31,7 +31,7 @@ enum class DecalMode { surface_gradient, projector };
 /// along z.
 struct DecalLayer {
     static constexpr const char* kind = "decal";
-    TextureUse texture;
+    TextureUse texture{.wrap = Wrap::clamp};
     Vec3 center{};
     Vec3 axis_x{1, 0, 0}, axis_y{0, 1, 0};  ///< made orthonormal; axis_z = axis_x x axis_y points at the projector
     Vec3 half_size{0.5, 0.5, 0.5};          ///< metres
@@ -93,4 +93,4 @@ std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_
 /// Writes one that load_decals reads back to the same numbers: TOML if it is named .toml, else CSV.
 void save_decals(const std::filesystem::path& file, const std::vector<Projector>& rows);
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

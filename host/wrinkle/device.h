@@ -66,4 +66,4 @@ struct Device {
 /// needs no guard.
 constexpr std::size_t padded(std::size_t pixels) { return (pixels + 63) / 64 * 64; }
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -21,4 +21,4 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

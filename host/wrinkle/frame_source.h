@@ -40,4 +40,4 @@ struct CameraSource {
     double max_residual = 0.5;  ///< pixels; a camera that reprojects positions worse than this is refused
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

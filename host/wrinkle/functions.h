@@ -49,8 +49,8 @@ struct Result : Parameter {
     std::vector<ErrorMeasure> measures;  ///< one at least
 };
 
-/// What is the same for all rows. Kernel text sees a number as a WR_SCALAR, a vector as a vec3, a camera as `constant
-/// const wr_camera *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const
+/// What is the same for all rows. Kernel text sees a number as a WR_SCALAR, a vector as a wr_vec3, a camera as
+/// `constant const wr_camera *`, a texture as a wr_texture, a volume as a wr_volume, a projector as `global const
 /// wr_projector *`, a lattice as the `constant const WR_SCALAR *` that fractal sums take.
 struct Setting {
     enum class Kind {
@@ -129,4 +129,4 @@ void evaluate_function(const Device& device, const Function& function, const Col
 void evaluate_function(const Device& device, const Function& function, const ColumnsInDouble& in,
                        const ColumnResultsInDouble& out, const FunctionOptions& options = {});
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -49,4 +49,4 @@ struct Marked {
     static constexpr int picture_hole = 16;  ///< the picture to relight was not finite: it counts as black
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -212,4 +212,4 @@ struct Layer {
     }
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

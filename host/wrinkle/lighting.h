@@ -36,4 +36,4 @@ struct Lighting {
     std::vector<Light> lights;
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -39,4 +39,4 @@ struct NoiseLayer {
     NoiseShape shape{};
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -75,6 +75,15 @@ public:
     /// The same pass for another frame's camera, of the same kind.
     void set_camera(const Camera& camera);
 
+    /// The same pass with another scene's numbers: strengths, colours, lights, frequencies, object indices, names of
+    /// Cryptomatte objects, rows of tables of decals. Nothing is planned, compiled or read from files, and the results
+    /// are those of a pass made for that scene, bit by bit. What code is compiled for stays as it is: the kinds of
+    /// layers, their choices, switches, files and octaves, which optional parts there are, whether a mapping or an
+    /// object is turned at all; of tables of decals, which textures, regions and wraps they use, in order of first use,
+    /// and whether any row has a mask.
+    /// Throws Error naming the layer and the key that differ there, and what check() finds; the pass is then as before.
+    void set_parameters(const Scene& scene);
+
     /// Whole frame from and to host memory, in bands of bounded size; blocks. Every plane holds size.width x
     /// size.height numbers. Throws Error when a plane is missing or too short, or an output overlaps another plane.
     void run(const HostPlanes& in, const HostOutputs& out);
@@ -112,4 +121,4 @@ Pass accumulate_decals(const Device& device, std::span<const Layer> decals, cons
 ///   inputs: normal.*, depth or position.*    outputs: dp_dx.*, dp_dy.* (world, metres per pixel right and down)
 Pass screen_derivatives(const Device& device, const Frame& frame, const PassOptions& options = {});
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

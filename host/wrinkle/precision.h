@@ -25,4 +25,4 @@ struct Precisions {
     bool operator==(const Precisions&) const = default;
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -48,4 +48,10 @@ struct Scene {
 /// Throws Error listing every problem as "file:line: what was found; what is allowed", nearest known key included.
 Scene load_scene(const std::filesystem::path& file);
 
-}  // namespace gnu::visibility("default")]]wrinkle
+/// Checks a scene as load_scene() does one of a file: numbers out of range, axes that span nothing, values that are
+/// none of their type, textures that are missing, rows of tables of decals, names that are not unique. Every pass does
+/// so first. Where the frame comes from (gbuffer.file, camera) is left to those who open it. Throws Error listing every
+/// problem: `"octaves" in layer "dents" must be a whole number from 1 to 16; found 0`.
+void check(const Scene& scene);
+
+}  // namespace wrinkle

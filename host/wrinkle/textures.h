@@ -44,4 +44,4 @@ struct UvMapping {
     Vec3 axis_u{1, 0, 0}, axis_v{0, 1, 0};
 };
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

@@ -72,8 +72,8 @@ TEST_P(Budgets, AreKept) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Budgets,
                          testing::Values("combine", "comparisons", "constant", "courtyard", "decals", "decal_table",
-                                         "derivative_map", "height_channel", "height_map", "kernel", "lighting", "noise",
-                                         "noise_family", "normal_map", "object_normal", "parallax", "resolve",
+                                         "derivative_map", "height_channel", "height_map", "kernel", "lighting",
+                                         "noise", "noise_family", "normal_map", "object_normal", "parallax", "resolve",
                                          "triplanar", "triplanar_object", "triplanar_planes", "volume"),
                          [](const auto& info) { return std::string(info.param); });
 

@@ -25,11 +25,12 @@ TEST(Cache, FolderComesFromTheEnvironment) {
 
 TEST(Cache, LongestUnusedProgramsGoFirst) {
     const TempFolder folder;
+    const std::string key = "k";
     const std::vector<unsigned char> binary(1000, 'x');
     const auto now = fs::file_time_type::clock::now();
     for (const int age : {3, 2, 1}) {
         const fs::path file = folder / (std::to_string(age) + ".program");
-        write_program(file, binary);
+        write_program(file, key, binary);
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
     fs::copy_file(folder / "3.program", folder / "not_ours.bin");
@@ -38,8 +39,8 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
         fs::copy_file(folder / "3.program", file);
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
-    EXPECT_EQ(read_program(folder / "3.program"), binary);  // makes it the one used last
-    write_program(folder / "0.program", binary, 2500);
+    EXPECT_EQ(read_program(folder / "3.program", key), binary);  // makes it the one used last
+    write_program(folder / "0.program", key, binary, 2500);
     EXPECT_TRUE(fs::exists(folder / "0.program"));
     EXPECT_TRUE(fs::exists(folder / "3.program"));
     EXPECT_FALSE(fs::exists(folder / "2.program"));
@@ -48,6 +49,22 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
     EXPECT_TRUE(fs::exists(folder / "9.program.123-0"));
     EXPECT_FALSE(fs::exists(folder / "9.program.123-2"));
     EXPECT_EQ(folder.files().size(), 4u) << "nothing unfinished is left";
+}
+
+TEST(Cache, ServesNoProgramOfAnotherKey) {
+    const TempFolder folder;
+    const std::vector<unsigned char> binary(10, 'x');
+    write_program(folder / "a.program", "kernel void a() {}", binary);
+    EXPECT_EQ(read_program(folder / "a.program", "kernel void a() {}"), binary);
+    for (const char* other : {"kernel void b() {}", "kernel void a() {}x", "kernel void a() {", ""})
+        EXPECT_TRUE(read_program(folder / "a.program", other).empty()) << other;
+}
+
+TEST(Cache, ServesNoDamagedProgram) {
+    const TempFolder folder;
+    write_program(folder / "a.program", "key", {1, 2, 3});
+    fs::resize_file(folder / "a.program", fs::file_size(folder / "a.program") - 1);
+    EXPECT_TRUE(read_program(folder / "a.program", "key").empty());
 }
 
 }  // namespace

@@ -1,111 +1,156 @@
-// sources/dual.clh: gradients against central differences, in long double, of the same values by the C++ library.
-#include "tests/cases/noise.h"
+// dual.clh, dual_noise.clh: values against the same formulas in long double, gradients against central differences of
+// those.
 #include "tests/kernels/check.h"
 #include "tests/reference/noise.h"
 
 namespace wrinkle::test {
 namespace {
 
-using Height = std::function<real(real x, real y, real z)>;
-
-/// Random points, and the value and gradient there.
-Cases points_of(const char* name, const Height& height, real low, real high) {
-    constexpr real step = 1e-6L;
-    Cases c{.name = name};
-    for (unsigned seed = 1; seed <= 200; ++seed) {
-        cases::Random random(seed);
-        const V p{static_cast<float>(random.uniform(low, high)), static_cast<float>(random.uniform(low, high)),
-                  static_cast<float>(random.uniform(low, high))};
-        c.add(fmt::format("{}, seed {}", name, seed), true);
-        c.in("p", p);
-        c.out("value", height(p.x, p.y, p.z));
-        c.out("gradient", V{(height(p.x + step, p.y, p.z) - height(p.x - step, p.y, p.z)) / (2 * step),
-                            (height(p.x, p.y + step, p.z) - height(p.x, p.y - step, p.z)) / (2 * step),
-                            (height(p.x, p.y, p.z + step) - height(p.x, p.y, p.z - step)) / (2 * step)});
-    }
-    return c;
-}
-
 struct Formula {
-    const char* text;  ///< of the kernel, in x, y and z
-    Height height;
-    real low = -2, high = 2;
-    double bound = 2e-6, fp64 = 1e-9;  ///< absolute; the differences are good to 1e-10
+    const char* text;  ///< of a wr_dual of the point p
+    std::function<real(V)> value;
+    double error = 2e-6, fp64 = 1e-12;  ///< of value and gradient, absolute
 };
 
-class Duals : public testing::TestWithParam<int> {};
-
-const Formula formulas[] = {
-    {"wr_add(wr_mul(x, y), wr_mul(z, (wr_real)(3)))", [](real x, real y, real z) { return x * y + 3 * z; }},
-    {"wr_sub(wr_add(x, (wr_real)(2)), wr_mul(wr_negative(y), wr_sub(z, (wr_real)(1))))",
-     [](real x, real y, real z) { return x + 2 + y * (z - 1); }},
-    {"wr_div(x, wr_add(wr_mul(y, y), (wr_real)(1)))", [](real x, real y, real) { return x / (y * y + 1); }},
-    {"wr_div(wr_add(x, z), (wr_real)(4))", [](real x, real, real z) { return (x + z) / 4; }},
-    {"wr_sqrt(wr_add(wr_mul(x, x), (wr_real)(1)))", [](real x, real, real) { return std::sqrt(x * x + 1); }},
-    {"wr_mul(wr_sin(wr_mul(x, (wr_real)(2))), wr_cos(y))",
-     [](real x, real y, real) { return std::sin(2 * x) * std::cos(y); }},
-    {"wr_exp(wr_mul(x, y))", [](real x, real y, real) { return std::exp(x * y); }, -1, 1},
-    {"wr_log(wr_add(wr_mul(x, x), (wr_real)(1)))", [](real x, real, real) { return std::log(x * x + 1); }},
-    {"wr_pow(x, (wr_real)(2.5f))", [](real x, real, real) { return std::pow(x, 2.5L); }, 0.1L, 2},
-    {"wr_max(wr_min(x, y), z)", [](real x, real y, real z) { return std::max(std::min(x, y), z); }},
-    {"wr_abs(wr_mul(x, y))", [](real x, real y, real) { return std::abs(x * y); }},
-    {"wr_limit(wr_mul(x, y), (wr_real)(-0.5f), (wr_real)(0.5f))",
-     [](real x, real y, real) { return std::clamp(x * y, -0.5L, 0.5L); }},
-    {"wr_fraction(wr_mul(x, (wr_real)(3)))", [](real x, real, real) { return 3 * x - std::floor(3 * x); }},
-    {"wr_smoothstep((wr_real)(-1), (wr_real)(1), x)",
-     [](real x, real, real) {
-         const real t = std::clamp((x + 1) / 2, 0.0L, 1.0L);
-         return t * t * (3 - 2 * t);
-     }},
-    {"wr_mix(x, y, z)", [](real x, real y, real z) { return x + (y - x) * z; }},
-    {"wr_length(x, y, z)", [](real x, real y, real z) { return std::sqrt(x * x + y * y + z * z); }},
-    {"wr_noise_of(wr_mul(x, (wr_real)(2)), wr_add(y, z), wr_mul(z, z))",
-     [](real x, real y, real z) {
-         return reference::perlin_noise(V{2 * x, y + z, z * z}).value;
-     },
-     -2, 2, 1e-5},
-};
-
-TEST_P(Duals, HaveTheGradientsOfTheirValues) {
-    const Formula& formula = formulas[GetParam()];
-    check(points_of(formula.text, formula.height, formula.low, formula.high),
-          fmt::format("wr_dual x = wr_dual_x(p), y = wr_dual_y(p), z = wr_dual_z(p);\nwr_dual f = {};", formula.text),
-          {{"value", {"f.value"}, ErrorMeasure::absolute, formula.bound, formula.bound, formula.fp64},
-           {"gradient", xyz("f.gradient"), ErrorMeasure::absolute, formula.bound, formula.bound, formula.fp64}});
-}
-INSTANTIATE_TEST_SUITE_P(Formulas, Duals, testing::Range(0, static_cast<int>(std::size(formulas))));
-
-/// Where a function has no finite derivative, or no value, duals are flat; nothing is NaN or infinite.
-TEST(Duals, AreFiniteWhereDerivativesAreNot) {
-    Cases c{.name = "edges"};
-    c.add("zero", true);
-    c.in("p", V{0, 0, 0});
-    c.out("value", real{0}), c.out("gradient", V{0, 0, 0});
-    for (const char* text : {"wr_sqrt(x)", "wr_div(x, y)", "wr_pow(x, (wr_real)(0.5f))", "wr_length(x, y, z)",
-                             "wr_abs(x)", "wr_sub(wr_log(x), wr_log(x))", "wr_sqrt(wr_sub(x, (wr_real)(1)))"})
-        check(c, fmt::format("wr_dual x = wr_dual_x(p), y = wr_dual_y(p), z = wr_dual_z(p);\nwr_dual f = {};", text),
-              {{"value", {"f.value"}, ErrorMeasure::absolute, 0, 0},
-               {"gradient", xyz("f.gradient"), ErrorMeasure::absolute, 0, 0}});
+V central_differences(const std::function<real(V)>& f, V p) {
+    const real h = 1e-7L;
+    return {(f({p.x + h, p.y, p.z}) - f({p.x - h, p.y, p.z})) / (2 * h),
+            (f({p.x, p.y + h, p.z}) - f({p.x, p.y - h, p.z})) / (2 * h),
+            (f({p.x, p.y, p.z + h}) - f({p.x, p.y, p.z - h})) / (2 * h)};
 }
 
-TEST(RandomOfCell, IsUniformAndOfAnotherSaltAnotherNumber) {
-    Cases c{.name = "cells"};
-    for (int i = 0; i < 4000; ++i) {
-        c.add(fmt::format("cell {}", i), true);
-        c.in("p", V{real(i % 63 - 31), real(i / 63 - 31), real(i % 7)});
+/// Every formula at random points of the box from 0.25 to 2.25.
+void check_formulas(const std::string& name, const std::vector<Formula>& formulas) {
+    cases::Cases c{.name = name};
+    std::string body = "wr_point p = wr_point_of(v);\n";
+    std::vector<Answer> answers;
+    for (std::size_t k = 0; k < formulas.size(); ++k) {
+        body += fmt::format("wr_dual f{} = {};\n", k, formulas[k].text);
+        const std::string value = fmt::format("value of {}", formulas[k].text),
+                          gradient = fmt::format("gradient of {}", formulas[k].text), f = fmt::format("f{}", k);
+        answers.push_back(
+            {value, {f + ".value"}, ErrorMeasure::absolute, formulas[k].error, formulas[k].error, formulas[k].fp64});
+        answers.push_back({gradient, xyz(f + ".gradient"), ErrorMeasure::absolute, formulas[k].error, formulas[k].error,
+                           std::max(formulas[k].fp64, 1e-10)});
     }
-    ColumnKernel kernel{"", {"wr_random_of_cell(p, 1)", "wr_random_of_cell(p, 2)"}};
-    const Results got = run_kernel(kernel, c.inputs, {8, false});
-    EXPECT_EQ(got, run_kernel(kernel, c.inputs, {1, true}));
-    double mean = 0, square = 0, product = 0;
-    for (std::size_t i = 0; i < c.size(); ++i) {
-        ASSERT_TRUE(got[0][i] >= 0 && got[0][i] < 1);
-        mean += got[0][i] / 4000, square += got[0][i] * got[0][i] / 4000;
-        product += (got[0][i] - 0.5) * (got[1][i] - 0.5) / 4000;
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+        cases::Random random(seed);
+        const V p{random.uniform(0.25L, 2.25L), random.uniform(0.25L, 2.25L), random.uniform(0.25L, 2.25L)};
+        c.add(fmt::format("{}, seed {}", name, seed), false);
+        c.in("v", p);
+        for (std::size_t k = 0; k < formulas.size(); ++k) {
+            c.out(answers[2 * k].name, formulas[k].value(p));
+            c.out(answers[2 * k + 1].name, central_differences(formulas[k].value, p));
+        }
     }
-    EXPECT_NEAR(mean, 0.5, 0.02);
-    EXPECT_NEAR(square, 1.0 / 3, 0.02);
-    EXPECT_NEAR(product, 0, 0.01);
+    check(c, body, answers);
+}
+
+TEST(Dual, Arithmetic) {
+    check_formulas(
+        "dual arithmetic",
+        {{"wr_add(p.x, wr_add(p.y, 3))", [](V p) { return p.x + p.y + 3; }},
+         {"wr_sub(1, wr_sub(p.x, wr_sub(p.y, 2)))", [](V p) { return 1 - (p.x - (p.y - 2)); }},
+         {"wr_multiply(wr_multiply(p.x, p.y), wr_multiply(0.5f, p.z))", [](V p) { return p.x * p.y * p.z / 2; }},
+         {"wr_divide(wr_multiply(p.x, p.z), p.y)", [](V p) { return p.x * p.z / p.y; }, 2e-5},
+         {"wr_divide(wr_divide(1, p.z), 4)", [](V p) { return 1 / p.z / 4; }},
+         {"wr_mix(p.x, wr_multiply(p.y, p.y), p.z)", [](V p) { return p.x + (p.y * p.y - p.x) * p.z; }},
+         {"wr_dot(p, wr_add(p, p))", [](V p) { return 2 * dot(p, p); }, 4e-6},
+         {"wr_length(wr_sub(p, wr_v3((wr_real)(3), (wr_real)(0), (wr_real)(0))))",
+          [](V p) {
+              return length(p - V{3, 0, 0});
+          }},
+         {"wr_dot(wr_scale(p, (wr_real)(2)), wr_v3((wr_real)(1), (wr_real)(2), (wr_real)(-1)))",
+          [](V p) { return 2 * (p.x + 2 * p.y - p.z); }, 4e-6}});
+}
+
+TEST(Dual, FunctionsOfOneNumber) {
+    check_formulas(
+        "dual functions",
+        {{"wr_sqrt(wr_multiply(p.x, p.y))", [](V p) { return std::sqrt(p.x * p.y); }},
+         {"wr_sin(wr_multiply(p.x, wr_multiply(p.y, 3)))", [](V p) { return std::sin(3 * p.x * p.y); }, 1e-5},
+         {"wr_cos(wr_multiply(p.x, wr_multiply(p.y, 3)))", [](V p) { return std::cos(3 * p.x * p.y); }, 1e-5},
+         {"wr_exp(wr_sub(p.x, p.z))", [](V p) { return std::exp(p.x - p.z); }, 4e-6},
+         {"wr_log(wr_multiply(p.x, p.z))", [](V p) { return std::log(p.x * p.z); }},
+         {"wr_pow(wr_multiply(p.x, p.y), 1.75f)", [](V p) { return std::pow(p.x * p.y, 1.75L); }, 4e-5},
+         {"wr_pow(p.x, 3)", [](V p) { return p.x * p.x * p.x; }, 1e-5},
+         {"wr_abs(wr_sub(p.x, 1.3f))", [](V p) { return std::abs(p.x - real{1.3f}); }},
+         {"wr_fract(wr_multiply(p.y, 3))", [](V p) { return 3 * p.y - std::floor(3 * p.y); }},
+         {"wr_floor(wr_multiply(p.y, 3))", [](V p) { return std::floor(3 * p.y); }},
+         {"wr_min(p.x, wr_multiply(p.y, p.y))", [](V p) { return std::min(p.x, p.y * p.y); }},
+         {"wr_max(p.x, wr_multiply(p.y, p.y))", [](V p) { return std::max(p.x, p.y * p.y); }},
+         {"wr_clamp(p.x, 0.5f, 1.5f)", [](V p) { return std::clamp(p.x, 0.5L, 1.5L); }},
+         {"wr_smoothstep(0.5f, 1.75f, p.z)", [](V p) {
+              const real t = std::clamp((p.z - 0.5L) / 1.25L, 0.0L, 1.0L);
+              return t * t * (3 - 2 * t);
+          }}});
+}
+
+real perlin(V p) { return reference::perlin_noise(p).value; }
+
+/// Also where noise moves the points of other noise: the chain rule over three coordinates.
+TEST(Dual, Noise) {
+    check_formulas("dual noise",
+                   {{"wr_perlin(wr_scale(p, (wr_real)(4)))", [](V p) { return perlin(p * 4.0L); }, 2e-5},
+                    {"wr_perlin((wr_point){wr_multiply(p.x, p.y), wr_sin(p.z), wr_add(p.x, wr_perlin(p))})",
+                     [](V p) {
+                         return perlin({p.x * p.y, std::sin(p.z), p.x + perlin(p)});
+                     },
+                     2e-5}});
+}
+
+/// Simplex and cellular noise against their own exact gradients, which are tested elsewhere: what is new is the chain
+/// rule, here for a point that is turned and scaled.
+TEST(Dual, OtherNoise) {
+    cases::Cases c{.name = "dual noise against fields"};
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+        cases::Random random(seed);
+        c.add("dual noise against fields, seed " + std::to_string(seed), false);
+        c.in("v", random.box(3));
+        c.out("rest", V{0, 0, 0});
+    }
+    for (const char* pair : {"wr_simplex(q)|wr_simplex_noise(where, form, (wr_real)(1), (wr_real)(0))",
+                             "wr_worley(q, WR_F2_F1)|wr_worley_noise(where, WR_F2_F1)"}) {
+        const std::string both = pair;
+        const std::size_t bar = both.find('|');
+        check(c,
+              "wr_point p = wr_point_of(v), q = {wr_multiply(p.y, 2), wr_multiply(p.z, -3), p.x};\n"
+              "const wr_simplex_form form = {{0, 0, 0}, 0};\n"
+              "wr_lattice_point where = wr_lattice_at(wr_v3(2 * v.y, -3 * v.z, v.x));\n"
+              "wr_dual d = " +
+                  both.substr(0, bar) + ";\nwr_field f = " + both.substr(bar + 1) +
+                  ";\n"
+                  "wr_vec3 rest = wr_v3(d.gradient.x - f.gradient.z, d.gradient.y - 2 * f.gradient.x,\n"
+                  "                     d.gradient.z + 3 * f.gradient.y);\n",
+              {{"rest", xyz("rest"), ErrorMeasure::absolute, 1e-6, 1e-6}});
+    }
+}
+
+/// Where there is no derivative or no value: as documented, and finite.
+TEST(Dual, EdgesAreFinite) {
+    const std::pair<const char*, std::array<double, 2>> edges[] = {
+        {"wr_sqrt(zero)", {0, 0}},
+        {"wr_sqrt(wr_sub(zero, 1))", {0, 0}},
+        {"wr_divide(one, zero)", {0, 0}},
+        {"wr_divide(1, zero)", {0, 0}},
+        {"wr_pow(zero, 0.5f)", {0, 0}},
+        {"wr_pow(zero, -2)", {0, 0}},
+        {"wr_pow(wr_sub(zero, 1), 2)", {0, 0}},
+        {"wr_abs(zero)", {0, 0}},
+        {"wr_exp(wr_multiply(one, 1000))", {std::exp(88.0), 0}},
+        {"wr_log(zero)", {std::log(1e-37), 0}},
+        {"wr_length((wr_point){zero, zero, zero})", {0, 0}},
+        {"wr_min(zero, wr_multiply(zero, 2))", {0, 1}},
+        {"wr_clamp(zero, 0, 1)", {0, 1}},
+    };
+    for (const auto& [text, want] : edges)
+        for (const int lanes : {1, 4, 16}) {
+            const std::string body = "wr_dual zero = wr_variable(v, 0), one = wr_variable(v + 1, 0), f = ";
+            const Results r =
+                run_kernel({body + text + ";", {"f.value", "f.gradient.x"}}, {{"v", {0, 0}}}, {lanes, false});
+            EXPECT_NEAR(r[0][1], want[0], 2e-6 * (1 + std::abs(want[0]))) << text;
+            EXPECT_EQ(r[1][1], want[1]) << text;
+        }
 }
 
 }  // namespace

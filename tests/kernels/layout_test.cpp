@@ -3,16 +3,19 @@
 
 #include <numeric>
 
+#include "device/kernel_sources.h"
+#include "functions/kernel_listing.h"
 #include "resources/frame_constants.h"
 #include "tests/kernels/kernel_function.h"
 
 namespace wrinkle::test {
 namespace {
 
-/// A member as kernel text, and the number that the host finds in it when the struct's numbers are 1, 2, 3 and so on.
+/// A number of a member as kernel text, and what the host finds in it when number i of the struct is i + 1.
 struct Member {
     std::string text;
     double value;
+    std::string name;
 };
 
 template <class Struct>
@@ -26,17 +29,35 @@ Struct counted() {
 
 template <std::size_t n>
 void add(std::vector<Member>& members, const std::string& name, const double (&values)[n]) {
-    for (std::size_t k = 0; k < n; ++k) members.push_back({fmt::format("s->{}[{}]", name, k), values[k]});
+    for (std::size_t k = 0; k < n; ++k) members.push_back({fmt::format("s->{}[{}]", name, k), values[k], name});
 }
 void add(std::vector<Member>& members, const std::string& name, double value) {
-    members.push_back({"s->" + name, value});
+    members.push_back({"s->" + name, value, name});
 }
 
 #define MEMBER(m) add(members, #m, s.m)
 
+/// The table of the reference page has every member at the place where the compiler puts it.
+void check_table(const std::string& type, const std::vector<Member>& members) {
+    for (const LayoutStruct& layout : layout_structs(kernel_source("layout.h"))) {
+        if (layout.name != type) continue;
+        ASSERT_EQ(layout.size, members.size()) << type;
+        for (const LayoutMember& row : layout.members) {
+            EXPECT_FALSE(row.meaning.empty()) << type << '.' << row.name;
+            for (std::size_t k = 0; k < row.count; ++k) {
+                EXPECT_EQ(members[row.offset + k].name, row.name) << type;
+                EXPECT_EQ(members[row.offset + k].value, static_cast<double>(row.offset + k + 1)) << type;
+            }
+        }
+        return;
+    }
+    ADD_FAILURE() << type << " is not in the table";
+}
+
 /// Reads every member on the device, as float and as double, from constant and from global memory.
 void check_layout(const std::string& type, const std::vector<Member>& members, std::size_t size) {
     ASSERT_EQ(members.size() * sizeof(double), size) << type << ": a member is not named in this test";
+    check_table(type, members);
     ColumnData data;
     data.constants.resize(size / sizeof(double));
     std::iota(data.constants.begin(), data.constants.end(), 1);

@@ -1,4 +1,5 @@
-// sources/projector.clh followed by the projection onto the surface. (functions_test.cpp tests its functions one by one.)
+// sources/projector.clh followed by the projection onto the surface. (functions_test.cpp tests its functions one by
+// one.)
 #include "tests/cases/decal.h"
 
 #include "tests/kernels/check.h"

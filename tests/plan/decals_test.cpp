@@ -21,6 +21,8 @@ TEST(PlanOfDecals, GroupsDecalsThatShareMaskAndSampling) {
     Layer undone = layer(decal("crack.png"), "b");
     undone.blend = Blend::subtract;
     undone.scale = 2;
+    Layer also_masked = masked;  // whose object another scene may change
+    EXPECT_EQ(std::ranges::count(titles(make_plan(scene_of({masked, also_masked}), everything())), "decal \"c\""), 2);
     const Plan plan = make_plan(scene_of({layer(decal(), "a"), undone, masked, plain}), everything());
     EXPECT_EQ(titles(plan), (Names{"decode the G-buffer", "decal \"a\" and 1 more", "decal \"c\"", "decal \"d\"",
                                    "resolve", "write"}));
@@ -42,9 +44,12 @@ TEST(PlanOfDecals, TablesOfDecalsShareAProgramWhateverTheirLength) {
     EXPECT_FALSE(mentions(other, "in_object") || mentions(other, "crypto"));
     EXPECT_FALSE(mentions(make_plan(scene_of({layer(decal())}), everything()), "wr_bin_"));
     EXPECT_FALSE(make_plan(scene_of({table({})}), everything()).tiles);
-    const Plan two =
-        make_plan(scene_of({table(std::vector<Projector>(3)), table(std::vector<Projector>(4), "b")}), everything());
-    EXPECT_TRUE(mentions(two, "number < 0u || number >= 3u") && mentions(two, "number < 3u || number >= 7u"));
+    const Scene both = scene_of({table(std::vector<Projector>(3)), table(std::vector<Projector>(70000), "b")});
+    const Plan two = make_plan(both, everything());
+    EXPECT_EQ(numbers(two, both, "first and last row"), (std::vector<double>{0, 0, 0, 3, 0, 3, 1, 70003 - 65536}));
+    EXPECT_EQ(two.source, make_plan(scene_of({table(std::vector<Projector>(8)), table(std::vector<Projector>(4), "b")}),
+                                    everything())
+                              .source);
 }
 
 TEST(PlanOfDecals, RowsOfATableBringTheirMasksAndRegions) {

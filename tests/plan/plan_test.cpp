@@ -34,17 +34,20 @@ TEST(Plan, OriginsRepeatAsTheirLayersDo) {
     TriplanarLayer tiles;
     tiles.texture.file = "rock.png";
     tiles.tile = 4;
-    const Plan plan = make_plan(
-        scene_of({planar, clamped, layer(tiles), layer(NoiseLayer{.frequency = 3, .octaves = 2})}), everything());
+    const Scene scene = scene_of({planar, clamped, layer(tiles), layer(NoiseLayer{.frequency = 3, .octaves = 2})});
+    const Available all = everything();
+    const Plan plan = make_plan(scene, all);
     ASSERT_EQ(plan.eye_places.size(), 5u);
-    EXPECT_EQ(plan.eye_places[0].period, Periods(1));
-    EXPECT_EQ(plan.eye_places[0].axes[1], (Vec3{0, 4, 0}));
-    EXPECT_EQ(plan.eye_places[0].offset, (Vec3{0.25, 0.5, 0}));
-    EXPECT_EQ(plan.eye_places[1].period, Periods(0)) << "a clamped coordinate must not be reduced";
-    EXPECT_EQ(plan.eye_places[2].axes[2], (Vec3{0, 0, 0.25}));
-    EXPECT_EQ(plan.eye_places[3].axes[0], (Vec3{3, 0, 0}));
-    EXPECT_EQ(plan.eye_places[4].axes[0], (Vec3{6, 0, 0}));
-    EXPECT_EQ(plan.eye_places[3].period, Periods(256));
+    std::vector<EyePlace> places;
+    for (const PlannedEyePlace& planned : plan.eye_places) places.push_back(planned({scene, all.cryptomatte}));
+    EXPECT_EQ(places[0].period, Periods(1));
+    EXPECT_EQ(places[0].axes[1], (Vec3{0, 4, 0}));
+    EXPECT_EQ(places[0].offset, (Vec3{0.25, 0.5, 0}));
+    EXPECT_EQ(places[1].period, Periods(0)) << "a clamped coordinate must not be reduced";
+    EXPECT_EQ(places[2].axes[2], (Vec3{0, 0, 0.25}));
+    EXPECT_EQ(places[3].axes[0], (Vec3{3, 0, 0}));
+    EXPECT_EQ(places[4].axes[0], (Vec3{6, 0, 0}));
+    EXPECT_EQ(places[3].period, Periods(256));
 }
 
 TEST(Plan, DerivesTextureCoordinatesWhereMasksWantThem) {

@@ -37,8 +37,8 @@ TEST(BandPipeline, EveryBandPassesEveryStageInOrder) {
 
 TEST(BandPipeline, StagesRunBesideEachOther) {
     if (tbb::info::default_concurrency() < 2) GTEST_SKIP() << "one thread does one thing at a time";
-    // Band 1 is not evaluated before all bands have been read, and not written before all have been evaluated: this ends
-    // only if stages run at the same time.
+    // Band 1 is not evaluated before all bands have been read, and not written before all have been evaluated: this
+    // ends only if stages run at the same time.
     std::atomic<std::uint32_t> read{0}, evaluated{0};
     const auto until = [](const auto& value, std::uint32_t least) {
         for (auto now = value.load(); now < least; now = value.load()) value.wait(now);

@@ -16,7 +16,7 @@ Turned turned(const V& normal) {
     const HostFrame frame(plane_frame(camera, {64, 48}, normal), camera);
     Scene scene;
     scene.layers.resize(1);
-    NormalMapLayer weave{.texture = {.file = data_folder / "textures/weave_normal.png"}};
+    NormalMapLayer weave{.texture = {.file = data_folder / "textures/weave_normal.png", .content = Content::normal}};
     weave.uv.source = UvSource::planar, weave.uv.scale = {3, 3}, weave.uv.rotation = 0.5;
     weave.uv.axis_u = {1, 0, 0}, weave.uv.axis_v = {0, 0, 1};
     scene.layers[0].bump = weave, scene.layers[0].footprint = false;

@@ -95,6 +95,12 @@ inline Scene data_scene(const std::string& name) {
     return scene;
 }
 
+/// A scene that took some layer twice: names are unique.
+inline Scene with_own_names(Scene scene) {
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) scene.layers[i].name += fmt::format(", {}", i);
+    return scene;
+}
+
 /// Runs a pass on host memory, and gives all of its outputs.
 template <class T = float>
 std::map<std::string, std::vector<T>> run(Pass& pass, const HostFrame& frame) {

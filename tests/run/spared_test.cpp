@@ -31,6 +31,7 @@ TEST(Spared, NormalsThatNothingBendsKeepTheirBits) {
     Scene none = data_scene("constant"), some = none;
     none.layers.clear();
     some.layers = {resolve_layer(), constant_on(1), resolve_layer(), constant_on(1), resolve_layer(), constant_on(2)};
+    some = with_own_names(some);
     const Pixels before = evaluate_on(frame, none), after = evaluate_on(frame, some);
     std::size_t kept = 0, bent = 0;
     for (std::size_t i = 0; i < frame.count(); ++i) {
@@ -57,6 +58,7 @@ TEST(Spared, EveryStageHasTheDerivativesOfItsOwnSurface) {
     for (const std::vector<Layer>& order : orders) {
         Scene scene = data_scene("constant");
         scene.layers = order;
+        scene = with_own_names(scene);
         const Truth truth(frame, scene);
         std::string what;
         for (const Layer& layer : order) what += std::string(layer.kind()) + " ";

@@ -25,7 +25,7 @@ Scene mixed_scene() {
     add("noise", 0);
     std::get<NoiseLayer>(scene.layers.back().bump).octaves = 3;
     scene.output = {.surface_gradient = true, .dp_dx = true, .dp_dy = true, .marked = true};
-    return scene;
+    return with_own_names(scene);
 }
 
 /// Degrees between the normals of two runs of a frame.
@@ -72,6 +72,7 @@ TEST(Variants, AnyNumberOfStagesAgreesWithTheReference) {
     };
     add("triplanar_object", 1, 0.3);
     add("height_channel", 0, 0.002);
+    scene = with_own_names(scene);
     scene.lighting.relight = Relight::off;
     ASSERT_EQ(std::ranges::count_if(scene.layers,
                                     [](const Layer& l) { return std::holds_alternative<ResolveLayer>(l.bump); }),
@@ -90,6 +91,7 @@ TEST(Variants, DoubleAgreesWithTheReference) {
     const HostFrame frame = small_frame();
     Scene noise = data_scene("noise");  // without textures, which are float in double runs, too
     noise.layers.push_back(data_scene("constant").layers.at(0));
+    noise = with_own_names(noise);
     noise.lighting.relight = Relight::off;
     Pass exact = evaluate(device(), noise, frame.frame, {.fp64 = true});
     expect_within("double, without texels", normal_error(run<double>(exact, frame), Truth(frame, noise)),
