@@ -24,9 +24,9 @@
 ///     const std::vector<double> numbers = wrinkle::camera_numbers(camera, {1920, 1080});
 ///     const std::vector<float> narrowed(numbers.begin(), numbers.end());
 ///     const std::vector<float> heights(64 * 32, 0.5f);
-///     const wrinkle::ImageSource ramp{.memory = wrinkle::ImageInMemory{64, 32, 1, heights}};
+///     const wrinkle::ImageSource flat{.memory = wrinkle::ImageInMemory{64, 32, 1, heights}};
 ///     const wrinkle::VolumeSource fog{.file = "fog.vdb", .grid = "density"};
-///     const std::vector<wrinkle::TextureSource> sources{ramp};  // or {ramp, fog}
+///     const std::vector<wrinkle::TextureSource> sources{flat};  // or {flat, fog}
 ///     const wrinkle::TexelData data = wrinkle::texel_data(sources);
 ///     const wrinkle::Projector seal{.center = {0, 0, 0.1}, .half_size = {0.5, 0.5, 0.2}, .scale = 0.01};
 ///     const auto row = wrinkle::projector_numbers(seal, {.texture = 0, .height = true}, wrinkle::eye_of(camera));

@@ -15,6 +15,7 @@
 #include "wrinkle/lighting.h"
 #include "wrinkle/noise_layer.h"
 #include "wrinkle/passes.h"
+#include "wrinkle/resources.h"
 #include "wrinkle/scene.h"
 #include "wrinkle/textures.h"
 
@@ -66,6 +67,23 @@ TEST(HeaderExample, Textures) {
     const wrinkle::UvMapping four_times{.scale = {4, 4}};
     const wrinkle::NormalMapLayer wall{.texture = bricks, .uv = four_times};
     EXPECT_TRUE(wall.texture.y_down && wall.uv.scale[1] == 4);
+}
+
+TEST(HeaderExample, Resources) {
+    const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 16.0 / 9);
+    const std::vector<double> numbers = wrinkle::camera_numbers(camera, {1920, 1080});
+    const std::vector<float> narrowed(numbers.begin(), numbers.end());
+    const std::vector<float> heights(64 * 32, 0.5f);
+    const wrinkle::ImageSource flat{.memory = wrinkle::ImageInMemory{64, 32, 1, heights}};
+    const wrinkle::VolumeSource fog{.file = "fog.vdb", .grid = "density"};
+    const std::vector<wrinkle::TextureSource> sources{flat};  // or {flat, fog}
+    const wrinkle::TexelData data = wrinkle::texel_data(sources);
+    const wrinkle::Projector seal{.center = {0, 0, 0.1}, .half_size = {0.5, 0.5, 0.2}, .scale = 0.01};
+    const auto row = wrinkle::projector_numbers(seal, {.texture = 0, .height = true}, wrinkle::eye_of(camera));
+    EXPECT_EQ(narrowed.at(0), 1920);
+    EXPECT_EQ(data.textures.at(1), 32u);
+    EXPECT_EQ(row.at(1), 5);  // the centre, relative to the eye
+    EXPECT_EQ(fog.filter, wrinkle::VolumeFilter::linear);
 }
 
 TEST(HeaderExample, Decals) {
