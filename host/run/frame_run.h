@@ -13,7 +13,7 @@
 namespace wrinkle {
 
 /// One frame in bands, several in flight: while one is evaluated others are read and written.
-class FrameRun {
+class [[gnu::visibility("hidden")]] FrameRun {
 public:
     FrameRun(Pass::Impl& pass, const GBufferReader& reader, PhaseClock& clock)
         : pass_(pass), reader_(reader), clock_(clock) {}
