@@ -36,7 +36,7 @@ bool settle(Row& last) {
 std::string why_not_rigid(Mat4& view) {
     if (!settle(view[3])) {
         // Matrices written for row vectors are the usual slip.
-        if (view[0][3] == 0 && view[1][3] == 0 && view[2][3] == 0)
+        if (view[0][3] == 0 && view[1][3] == 0 && view[2][3] == 0 && view[3][3] == 1)
             return "is transposed: its translation is in the last row; it belongs in the last column";
         return fmt::format("must have the last row [0, 0, 0, 1]; found [{}]", fmt::join(view[3], ", "));
     }
