@@ -44,12 +44,11 @@ Vec3 eye_of(const Camera& camera);
 std::vector<double> camera_numbers(const Camera& camera, Size size);
 
 /// A wr_projector: 32 numbers; a table of projectors is one row after another.
-///   row     the projector; its `texture` and `region` are not read, as `image` says where the texels are;
-///   `cryptomatte`
-///           is hashed, unless it is "#" and 8 hex digits
-///   image   number of its texture in TexelData::textures, and whether that has the slopes of heights
-///   eye     world, metres; of eye_of()
-///   scale   multiplies the row's own
+/// - `row`: the projector; `texture` and `region` are not read, as `image` says where the texels are. `cryptomatte` is
+///   hashed, unless it is "#" and 8 hex digits.
+/// - `image`: number of its texture in TexelData::textures, and whether that has the slopes of heights.
+/// - `eye`: world, metres; eye_of() the camera.
+/// - `scale`: multiplies the row's own.
 /// Kernels leave the masks to the caller: wr_projector's `mask`, `object` and `object_low` say what to compare.
 /// Throws Error naming what is not finite. A row with a half size of 0 or less covers nothing, and is no error.
 std::vector<double> projector_numbers(const Projector& row, const ProjectedImage& image, const Vec3& eye,

@@ -26,7 +26,7 @@ Real slope(const std::vector<float>& image, std::size_t channel, Real s, Real t)
 
 int main(int count, char** arguments) try {
     if (count != 3) return std::cerr << "usage: own_kernel KERNEL_DIR KERNEL_FILE\n", 1;
-    std::vector<float> image, plane[4];  // slopes; depth and normal of a rough ground
+    std::vector<float> image, plane[4], out(3 * pixels);  // slopes; depth and normal of a rough ground
     for (std::size_t i = 0; i < 2 * texels * texels; ++i)
         image.push_back(static_cast<float>(std::sin(static_cast<double>(i * i))));
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -48,16 +48,16 @@ int main(int count, char** arguments) try {
     const std::string lanes = std::to_string(on.info.lanes), folder = arguments[1];
     program.build(("-cl-std=CL1.2 -D WR_LANES=" + lanes + " -I " + folder).c_str());
     cl::Kernel bump(program, "bump");
-    auto give = [&, next = cl_uint{0}](auto& numbers) mutable {
-        const cl::Buffer buffer(on.queue, numbers.begin(), numbers.end(), false);
-        return bump.setArg(next++, buffer), buffer;
+    std::vector<cl::Buffer> buffers;  // kernels do not keep their arguments alive
+    const auto give = [&](auto& numbers) {
+        buffers.emplace_back(on.queue, numbers.begin(), numbers.end(), false);
+        bump.setArg(static_cast<cl_uint>(buffers.size() - 1), buffers.back());
     };
     give(wr_camera), give(projector), give(data.texels), give(data.textures);
     for (auto& numbers : plane) give(numbers);
-    std::vector<float> out(3 * pixels);
-    const cl::Buffer bumped = give(out);
+    give(out);
     on.queue.enqueueNDRangeKernel(bump, {}, cl::NDRange(pixels / static_cast<std::size_t>(on.info.lanes)));
-    cl::copy(on.queue, bumped, out.begin(), out.end());
+    cl::copy(on.queue, buffers.back(), out.begin(), out.end());
 
     Real worst = 0;
     for (std::size_t i = 0; i < pixels; ++i) {

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "resources/frame_constants.h"
 #include "resources/texture_heap.h"
 #include "run/pass_impl.h"
 #include "tests/io/files.h"
@@ -44,7 +45,7 @@ TexelData read(const TextureSource& source) { return texel_data({&source, 1}); }
 
 TEST(Resources, ACameraIsWhatAPassUses) {
     const HostFrame frame = small_frame();
-    const Pass pass = evaluate(device(), data_scene("noise"), frame.frame);
+    Pass pass = evaluate(device(), data_scene("noise"), frame.frame);
     const std::vector<float> numbers = narrowed(camera_numbers(frame.frame.camera, frame.frame.size));
     EXPECT_EQ(numbers.size(), 73u);
     EXPECT_EQ(numbers, floats(pass.impl().frame));
@@ -58,7 +59,7 @@ TEST(Resources, ADecalIsWhatAPassUses) {
     scene.layers[0].scale = 0.5;
     scene.layers[0].bump = DecalsLayer{.textures = {{.file = data_folder / "textures/seal_height.png"}},
                                        .rows = std::make_shared<const std::vector<Projector>>(1, row)};
-    const Pass pass = evaluate(device(), scene, frame.frame);
+    Pass pass = evaluate(device(), scene, frame.frame);
     const std::vector<double> numbers =
         projector_numbers(row, {.texture = 0, .height = true}, eye_of(frame.frame.camera), 0.5);
     ASSERT_EQ(numbers.size(), 32u);
