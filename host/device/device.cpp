@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+
 #include "base/names.h"
 #include "device/found_device.h"
 #include "device/guarded.h"
@@ -11,6 +13,9 @@ namespace wrinkle {
 namespace {
 
 std::vector<FoundDevice> all_devices() {
+    // PoCL 3.1 finds its devices when it is first asked for them, and tells threads that ask meanwhile of none.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -32,9 +32,8 @@ protected:
     const Device queue_ = out_of_order();
 };
 
-/// Layers that read a table of decals, through memory where the pass is split.
-Scene many_decals(const HostFrame& frame) {
-    Scene scene = table_scene(on_surfaces(frame, 60, 0.05, 1, 3));
+/// Adds layers that hand on what they make through memory, where the pass is split.
+Scene with_stages(Scene scene) {
     for (const double tilt : {0.2, -0.4}) {
         Layer& layer = scene.layers.emplace_back();
         layer.name = "tilt " + std::to_string(tilt);
@@ -90,13 +89,18 @@ std::vector<Pixels> evaluate_bands(const Device& on, Pass& pass, const HostFrame
 
 TEST_F(OutOfOrder, BandsThatShareListsAndScratchDoNotMix) {
     const HostFrame frame(plane_frame(test_camera(), {97, 61}, {0, 0, 1}), test_camera());
-    const Scene scene = many_decals(frame);
-    for (const bool split : {false, true}) {
+    const Scene decals = with_stages(table_scene(on_surfaces(frame, 60, 0.05, 1, 3))), stages = with_stages({});
+    const struct {
+        const char* what;
+        const Scene& scene;
+        bool split;
+    } cases[] = {{"lists", decals, false}, {"lists and scratch", decals, true}, {"scratch", stages, true}};
+    for (const auto& [what, scene, split] : cases) {
         Pass pass = evaluate(queue_, scene, frame.frame, {.split = split});
         Pass in_order = evaluate(device(), scene, frame.frame, {.split = split});
         const Pixels want = evaluate_bands(device(), in_order, frame, 9).front();
         for (const Pixels& got : evaluate_bands(queue_, pass, frame, 9))
-            EXPECT_EQ(largest_difference(want, got), 0) << (split ? "split" : "fused");
+            EXPECT_EQ(largest_difference(want, got), 0) << what;
     }
 }
 
