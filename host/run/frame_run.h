@@ -12,8 +12,10 @@
 
 namespace wrinkle {
 
+class [[gnu::visibility("hidden")]] FrameRun;  // as hidden as the pass that it holds
+
 /// One frame in bands, several in flight: while one is evaluated others are read and written.
-class [[gnu::visibility("hidden")]] FrameRun {
+class FrameRun {
 public:
     FrameRun(Pass::Impl& pass, const GBufferReader& reader, PhaseClock& clock)
         : pass_(pass), reader_(reader), clock_(clock) {}
