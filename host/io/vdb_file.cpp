@@ -1,9 +1,13 @@
 // The only file that includes OpenVDB's headers, since they compile slowly. openvdb.h, which has every type of grid,
 // would be the slowest, so it is not included.
+// Their templates keep the visibility that OpenVDB's own library has them with. A program that hides some of a class's
+// static members, and shares others with that library, crashes when OpenVDB registers its grids.
+#pragma GCC visibility push(default)
 #include <openvdb/Grid.h>
 #include <openvdb/io/File.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/tree/Tree.h>
+#pragma GCC visibility pop
 
 #include <fstream>
 
