@@ -139,7 +139,7 @@ TEST(Eval, SettingsAreNumbersTexturesAndCameras) {
     const std::string derive = "eval screen_derivatives --in p.csv --set camera=" + camera;
     EXPECT_EQ(place.run(derive).code, 0);
     EXPECT_EQ(place.run(derive).out, place.run(derive + " --size 120x68").out) << "its file says 120 x 68";
-    expect_failed(place.run("eval screen_derivatives --in p.csv"), {"\"frame\"", "camera"});
+    expect_failed(place.run("eval screen_derivatives --in p.csv"), {"\"camera\"", "camera"});
     expect_failed(place.run(derive + " --size 100x100"), {"aspect"});
     expect_failed(place.run(derive + " --size 100"), {"WIDTHxHEIGHT"});
     write_text(place / "st.csv", "st.x,st.y,lod\n0.3,0.4,0\n");
