@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         SceneCase{"courtyard", {2e-6, 3e-4, 1e-3}, light}, SceneCase{"decals", {3e-7, 2e-4, 1e-3}, light},
         SceneCase{"decal_table", {3e-7, 7e-5, 2.5e-4}, light}, SceneCase{"derivative_map", {1.2e-5, 2e-4, 1e-3}, light},
         SceneCase{"height_channel", {3e-7, 1e-5, 2e-5}, {2e-7, 5e-7, 1e-6}},
-        SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light}, SceneCase{"kernel", {3e-7, 2e-4, 2e-3}, light},
+        SceneCase{"height_map", {3e-6, 2e-4, 1e-3}, light}, SceneCase{"kernel", {3e-7, 6e-4, 2e-3}, light},
         SceneCase{"lighting", {3e-7, 3e-4, 1e-3}, {3e-7, 1e-5, 1e-4}},
         SceneCase{"noise", {2e-4, 2e-3, 4e-3}, {1e-6, 3e-5, 1.5e-4}},
         SceneCase{"noise_family", {1e-5, 1.5e-2, 4e-2}, {3e-7, 3e-4, 1e-3}, true},
