@@ -139,7 +139,7 @@ std::map<std::string, std::string> charts(const Run& run) {
         if (m.group == "function" || m.group == "scene" || m.group == "memory")
             variants[m.name].push_back(&m);
         else if (m.group == "stack" || m.group == "noise" || m.group == "storage" || m.group == "variant" ||
-                 m.group == "ablation")
+                 m.group == "ablation" || m.group == "area")
             variants[m.group + "-" + m.name].push_back(&m);
     }
     std::map<std::string, std::string> scripts{{"roofline", roofline(run)}};

@@ -35,6 +35,11 @@ void measure_storage(const Device& device, Size size, Run& run);
 /// branches; without skipping pixels; without footprints; without fusing. Group "ablation".
 void measure_ablation(const Device& device, const std::filesystem::path& file, Size size, Run& run);
 
+/// Layers on a ground to the horizon at 1 to 16 points of a pixel's area, and by brute force at 2 x 2 to 8 x 8, whose
+/// averaging is not timed. Errors are against the mean over each pixel's area, by the reference at 1024 points. Group
+/// "area".
+void measure_area(const Device& device, Run& run);
+
 /// One layer over a whole frame of half the width and height. Noise: 2, 4 and 8 octaves, analytic gradients and
 /// differences. A height map: bilinear, smooth and by three taps, with mips and without. Noise of 8 octaves and the
 /// smooth map with mips also on 1, 4, 8 and 16 lanes. Group "variant".

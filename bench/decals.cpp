@@ -32,6 +32,7 @@ const std::filesystem::path kData = WRINKLE_SOURCE_DIR "/data";
 Scene scene_of(std::vector<Projector> rows) {
     Scene scene = load_scene(kData / "scenes/decals.toml");
     scene.lighting = {};
+    scene.filter.taps = 1;
     DecalsLayer layer;
     layer.textures = {{.file = kData / "textures/seal_height.png"},
                       {.file = kData / "textures/cracks_height.png"},

@@ -99,6 +99,7 @@ BenchFrame Resampler::frame(Size size) const {
 Scene without_lighting(Scene scene, const Frame& frame) {
     scene.lighting.relight = Relight::off;
     scene.lighting.lights.clear();
+    scene.filter.taps = 1;
     for (Layer& layer : scene.layers)
         if (layer.mask.cryptomatte)
             if (const auto hash = frame.cryptomatte.find(*layer.mask.cryptomatte); hash != frame.cryptomatte.end())

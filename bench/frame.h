@@ -43,7 +43,8 @@ private:
     std::map<std::string, std::vector<float>> planes_;
 };
 
-/// The scene in a form that all contenders take: without lighting, and with hashes for Cryptomatte names.
+/// The scene in a form that all contenders take: without lighting, with hashes for Cryptomatte names, and with
+/// one point a pixel.
 Scene without_lighting(Scene scene, const Frame& frame);
 
 /// Input planes on the device.

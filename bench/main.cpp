@@ -28,7 +28,7 @@ using namespace wrinkle;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> all_parts{"memory",   "functions", "demo",     "scenes", "decals", "volume",
-                                         "variants", "storage",   "ablation", "bars",   "sizes"};
+                                         "variants", "storage",   "ablation", "bars",   "sizes",  "area"};
 const std::vector<std::string> quick_parts{"memory", "functions", "demo", "scenes", "storage"};
 
 struct Arguments {
@@ -100,6 +100,7 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         for (const fs::path& file : files) bench::measure_scene(device, file, size, false, run);
     }
     if (wanted("variants")) bench::measure_variants(device, size, run);
+    if (wanted("area")) bench::measure_area(device, run);
     if (wanted("storage")) bench::measure_storage(device, size, run);
     if (wanted("ablation")) bench::measure_ablation(device, demo, size, run);
     if (wanted("bars")) {

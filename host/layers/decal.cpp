@@ -113,9 +113,7 @@ std::string emit(LayerText& at) {
         first, plan.decals.size(),
         at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
         facing ? "" : " * wr_projector_angle_fade(decal, n)",
-        at.layer.footprint
-            ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
-            : "0",
+        at.lod("wr_projector_step(decal, in, dp_dx)", "wr_projector_step(decal, in, dp_dy)"),
         sample_text(decal_of(at.layer).texture, "wr_projector_st(in)", "lod", "weight != 0"),
         mixed ? "wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
                 "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_projector_bumped_axis(decal, in, "

@@ -261,9 +261,7 @@ std::string emit(LayerText& at) {
         dh_dp = wr_fma(sum, m, dh_dp);
 )",
         another_layers(at), facing ? "" : " * wr_projector_angle_fade(decal, n)", row_masks(at, *l.rows),
-        at.layer.footprint
-            ? "wr_texture_lod(t, wr_projector_step(decal, in, dp_dx), wr_projector_step(decal, in, dp_dy))"
-            : "0");
+        at.lod("wr_projector_step(decal, in, dp_dx)", "wr_projector_step(decal, in, dp_dy)"));
 }
 
 }  // namespace

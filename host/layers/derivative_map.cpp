@@ -23,8 +23,11 @@ std::string emit(LayerText& at) {
     const auto& l = std::get<DerivativeMapLayer>(at.layer.bump);
     std::string text = at.textured(l.texture);
     if (l.auto_scale) {
-        text += fmt::format("        slope = wr_scale(slope, wr_texture_metres(dp_dx, dp_dy, c.dx, c.dy){});\n",
-                            l.texture.unit == SlopeUnit::texel ? " / wr_texels_across(t)" : "");
+        text += fmt::format(
+            "        wr_real metres = wr_texture_metres(dp_dx, dp_dy, c.dx, c.dy){};\n"
+            "        slope = wr_scale(slope, metres);\n",
+            l.texture.unit == SlopeUnit::texel ? " / wr_texels_across(t)" : "");
+        if (at.tells_spread()) text += "        lost = wr_scale(lost, metres * metres);\n";
         at.section.operations += kTextureMetres;
     }
     return text + at.slopes("scale_dependent", "c.dx, c.dy, slope");

@@ -21,8 +21,11 @@ std::string emit(LayerText& at) {
 }  // namespace
 
 const LayerKind& layers::height_channel() {
-    static constexpr LayerKind row{
-        .name = HeightChannelLayer::kind, .read = read, .emit = emit, .variants = layers::standard_and_exact};
+    static constexpr LayerKind row{.name = HeightChannelLayer::kind,
+                                   .read = read,
+                                   .emit = emit,
+                                   .once_a_pixel = true,
+                                   .variants = layers::standard_and_exact};
     return row;
 }
 

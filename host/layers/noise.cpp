@@ -21,8 +21,14 @@ void read(scene::Table& table, Layer& layer) {
 }
 
 std::string emit(LayerText& at) {
-    return noise_over(at, noise_of, {.pairs = at.emitter.precision(at.layer) == Precision::exact}) +
-           at.volume("f.gradient");
+    const std::string text = noise_over(at, noise_of, {.pairs = at.emitter.precision(at.layer) == Precision::exact}) +
+                             at.volume("f.gradient");
+    if (!at.tells_spread()) return text;
+    const std::string strength = at.strength();
+    return text + fmt::format(
+                      "        lost *= (m * {0}) * (m * {0});\n"
+                      "        finer = wr_add(finer, wr_v3(lost, (wr_real)(0), lost));\n",
+                      strength);
 }
 
 /// Pairs keep the digits of points far from the origin. A parallax moves points by a float, and a parallel projection

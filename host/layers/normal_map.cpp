@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "layers/common.h"
 #include "wrinkle/error.h"
@@ -83,6 +84,7 @@ std::string emit(LayerText& at) {
     const auto& l = std::get<NormalMapLayer>(at.layer.bump);
     std::string text = at.textured(l.texture);
     const bool planes = vertex_frame(at, l);
+    std::string frame = "vertex_tb";
     if (planes) {
         at.section.reads.insert({"vertex_tb", "vertex_tb_valid"});
         const std::size_t mirror = at.emitter.numbers(at.layer, "mirroring by uv", [](const Layer& layer, const auto&) {
@@ -93,16 +95,23 @@ std::string emit(LayerText& at) {
             "        slope.x *= numbers[{}], slope.y *= numbers[{}];\n"
             "        m = vertex_tb_valid ? m : (wr_real)(0);\n",
             mirror, mirror + 1);
+        if (at.tells_spread())
+            text += fmt::format("        lost.y *= numbers[{}] * numbers[{}];\n", mirror, mirror + 1);
         at.section.operations += 8;
     } else {
-        text += fmt::format("        wr_tangents f = wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy);\n", at.exactly());
+        frame = at.once("wr_tangents", "frame",
+                        fmt::format("wr_tangent_frame{}(n, dp_dx, dp_dy, c.dx, c.dy)", at.exactly()));
+        if (!at.over_area()) text += fmt::format("        wr_tangents f = {};\n", std::exchange(frame, "f"));
         at.section.operations += kFrame;
         if (l.uv.source == UvSource::planar)
             text += fmt::format(
                 "        m = wr_has_planar_frame(n, {}) ? m : (wr_real)(0);\n",
                 at.vector("axis of the planar uv", [](const Layer& layer) { return plane_axis(own_uv(layer)); }));
     }
-    const char* frame = planes ? "vertex_tb" : "f";
+    const auto along = [&](const char* unit) {
+        return fmt::format("wr_surface_gradient_from_tbn({}, {})", unit, frame);
+    };
+    text += at.spread(along("wr_v2((wr_real)(1), (wr_real)(0))"), along("wr_v2((wr_real)(0), (wr_real)(1))"));
     if (l.combine == Combine::surface_gradient)
         return text + fmt::format("        g = wr_fma(wr_surface_gradient_from_tbn(slope, {}), m * {}, g);\n", frame,
                                   at.strength());

@@ -156,8 +156,12 @@ MovedPoint moves(Emitter& emitter, const Layer& layer, bool own_normal) {
 }  // namespace
 
 const LayerKind& layers::parallax() {
-    static constexpr LayerKind row{
-        .name = ParallaxLayer::kind, .read = read, .emit = emit, .uses = layers::on_uv, .moves = moves};
+    static constexpr LayerKind row{.name = ParallaxLayer::kind,
+                                   .read = read,
+                                   .emit = emit,
+                                   .uses = layers::on_uv,
+                                   .once_a_pixel = true,
+                                   .moves = moves};
     return row;
 }
 

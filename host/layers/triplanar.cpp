@@ -241,6 +241,7 @@ private:
         NoiseSpace space;
         space.axes = [k](const Layer& layer) { return plane_axes(triplanar_of(layer), k); };
         space.point = fmt::format("wr_v3(wr_dot(p, {}), wr_dot(p, {}), (wr_real)(0))", axis(0), axis(1));
+        space.step = fmt::format("wr_v3(wr_dot(dp_dx, {}), wr_dot(dp_dx, {}), (wr_real)(0))", axis(0), axis(1));
         const auto length = [&](const char* q) {
             return fmt::format("wr_v3({0}.{1}, {0}.{2}, (wr_real)(0))", q, "xyz"[plane.s], "xyz"[plane.t]);
         };

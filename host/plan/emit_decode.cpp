@@ -29,7 +29,7 @@ std::string neighbour_planes(const GeometryText& geometry, bool object, bool dec
     return text;
 }
 
-/// A neighbour needs no mask of its own bits: what is not finite fails the comparisons of wr_neighbour_step.
+/// A neighbour needs no mask of its own bits: what is not finite fails the comparisons of wr_belongs.
 std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const std::string load = "wr_load_near({}, at, pixels)";
     const bool depth = geometry.planes.size() == 1;

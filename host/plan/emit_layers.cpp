@@ -25,14 +25,35 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     if (layers.size() > 1) section.title += fmt::format(" and {} more", layers.size() - 1);
     const std::string who = layer_label(layer);
     const std::size_t known_textures = emitter.plan.textures.size();
-    const std::string mask = emit_mask(emitter, layer, section);
+    section.area = varies_over_area(emitter, layer);
+    const MaskText mask = emit_mask_parts(emitter, layer, section);
     LayerText text{emitter, layers, layer, who, section};
     const std::string bump = kind.emit ? kind.emit(text) : "";
     for (PlannedTexture& texture : std::span(emitter.plan.textures).subspan(known_textures)) texture.layer = who;
     std::string condition = "wr_any(active)";
     if (emitter.options.switches) condition = fmt::format("{} != 0 && {}", text.strength(), condition);
-    section.body = mask + (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
+    section.body = mask.rest + (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
+    if (!section.area) {
+        section.body = mask.planes + section.body;
+        return section;
+    }
+    // Masks by planes are the same for all points of a pixel.
+    const std::size_t index = emitter.index_of(layer);
+    section.wanted = fmt::format("wanted_{}", index);
+    section.masks = fmt::format(
+        "        wr_real mask_{0};\n        wr_mask wanted_{0} = valid;\n{1}        {{\n{2}        mask_{0} = m;\n",
+        index, text.declared, mask.planes);
+    if (!mask.everywhere && emitter.options.skip)
+        section.masks +=
+            fmt::format("        wanted_{0} = wanted_{0} & ({1} != 0);\n", index, layer.mask.invert ? "(1 - m)" : "m");
+    section.masks += "        }\n";
+    if (!text.prepared.empty())
+        section.prepared = fmt::format(
+            "        if (wr_any(wanted_{0})) {{\n        wr_real m = mask_{0};\n{1}        }}\n", index, text.prepared);
+    section.cells = fmt::format("        {{\n{}        cells = wanted_{} ? fmax(cells, {}) : cells;\n        }}\n",
+                                text.details_before, index, text.details.empty() ? "(wr_real)(1e9f)" : text.details);
+    section.body = fmt::format("        wr_real m = mask_{};\n", index) + section.body;
     return section;
 }
 

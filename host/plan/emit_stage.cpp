@@ -58,59 +58,6 @@ Section emit_resolve(Emitter& emitter, const StageEnd& stage) {
     return section;
 }
 
-Section emit_lighting(Emitter& emitter) {
-    const Lighting& lighting = emitter.scene.lighting;
-    const bool ratio = lighting.relight == Relight::ratio;
-    Section section;
-    section.title = ratio ? "relight the picture by lit(new) / lit(old)" : "light";
-    section.reads = {"valid", "p", "n"};
-    section.writes = {"lit"};
-    const auto planes = [&](std::initializer_list<const char*> names) {
-        for (const char* name : names)
-            if (!emitter.has(name)) return false;
-        section.inputs.insert(names.begin(), names.end());
-        return true;
-    };
-    std::string& text = section.body;
-    text = fmt::format("        wr_vec3 v = {};\n", to_viewer_text(emitter));
-    text += planes({"albedo.r", "albedo.g", "albedo.b"})
-                ? "        wr_vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
-                  "                            wr_mask_channel(wr_load(in_albedo_g, at.in)),\n"
-                  "                            wr_mask_channel(wr_load(in_albedo_b, at.in)));  // [0,1]; NaN is 0\n"
-                : "        wr_vec3 albedo = wr_v3(lighting->albedo);\n";
-    text += planes({"roughness"}) ? "        wr_real roughness = wr_load(in_roughness, at.in);\n"
-                                  : "        wr_real roughness = lighting->roughness;\n";
-    const double lights = static_cast<double>(lighting.lights.size());
-    if (!ratio) {
-        text +=
-            "        lit = wr_light_surface(p, n, v, albedo, roughness, lighting, lights);\n"
-            "        lit = wr_select(valid, lit, wr_zero3());\n";
-        section.operations = 20 + 75 * lights;
-        return section;
-    }
-    emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
-    planes({"beauty.r", "beauty.g", "beauty.b"});
-    section.reads.insert("base");
-    section.operations = 40 + 125 * lights;
-    text +=
-        "        wr_vec3 old;\n"
-        "        lit = wr_light_surface(p, n, base, v, albedo, roughness, lighting, lights, &old);\n";
-    const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
-    for (const auto& part : parts)
-        text += fmt::format(
-            "        wr_floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
-            "        wr_mask seen_{1} = wr_finite(raw_{1});\n"
-            "        wr_real {1} = wr_to_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
-            "        lit.{0} = valid ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
-            part.axis, part.color);
-    if (emitter.scene.output.marked) {
-        section.reads.insert("marked");
-        section.writes.insert("marked");
-        text += "        marked += (seen_r & seen_g & seen_b) ? (wr_real)(0) : (wr_real)(16);\n";
-    }
-    return section;
-}
-
 Section emit_output(Emitter& emitter, bool bumped) {
     const Output& output = emitter.scene.output;
     Section section;
@@ -146,6 +93,21 @@ Section emit_output(Emitter& emitter, bool bumped) {
     }
     if (output.dp_dx) store3("dp_dx", "dp_dx");
     if (output.dp_dy) store3("dp_dy", "dp_dy");
+    if (output.slope_covariance) {
+        section.reads.insert("spread");
+        const struct {
+            char axis;
+            const char* name;
+        } parts[] = {{'x', "xx"}, {'y', "xy"}, {'z', "yy"}};
+        for (const auto& part : parts)
+            store(fmt::format("slope_covariance.{}", part.name),
+                  fmt::format("valid ? spread.{} : (wr_real)(0)", part.axis));
+    }
+    if (output.roughness) {
+        section.reads.insert("spread");
+        text += roughness_text(emitter, section);
+        store("roughness", "wr_widened_roughness(roughness, spread)");
+    }
     if (output.marked) {
         section.reads.insert("marked");
         store("marked", "marked");

@@ -105,13 +105,15 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
     return text;
 }
 
+/// Whether planes do not say where a layer's mask is 0.
+bool anywhere(const Layer* layer) {
+    const Mask& mask = layer->mask;
+    return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
+}
+
 }  // namespace
 
 std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section) {
-    const auto anywhere = [](const Layer* layer) {
-        const Mask& mask = layer->mask;
-        return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
-    };
     if (std::ranges::any_of(layers, anywhere)) return {};
     std::string text = "        wr_mask wanted = 0;\n";
     for (const Layer* layer : layers) {
@@ -122,9 +124,15 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
 }
 
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
+    const MaskText text = emit_mask_parts(emitter, layer, section);
+    return text.planes + text.rest;
+}
+
+MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
-    std::string text = mask_of_planes(emitter, layer, section);
+    const std::string planes = mask_of_planes(emitter, layer, section);
+    std::string text;
     if (mask.texture) {
         const std::size_t number = emitter.texture({.file = mask.texture->file}, TexelKind::mask);
         text += "        {\n" + emit_texcoord(
@@ -147,7 +155,7 @@ std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
     }
     section.reads.insert("valid");
     text += "        wr_mask active = valid & (m != 0);\n";
-    return text;
+    return {planes, text, anywhere(&layer)};
 }
 
 }  // namespace wrinkle

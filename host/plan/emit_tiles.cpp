@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plan/geometry_text.h"
 #include "plan/layer_text.h"
 
@@ -9,6 +11,27 @@ namespace {
 
 constexpr const char* kLoad = "wr_load_near({}, here, pixels)";
 const std::string kIndent(12, ' ');
+
+/// Whether a table of decals is evaluated at several points of a pixel's area.
+bool over_area(const Emitter& emitter) {
+    return std::ranges::any_of(emitter.scene.layers, [&](const Layer& layer) {
+        return emitter.kind(layer).binned && varies_over_area(emitter, layer);
+    });
+}
+
+/// Text that grows the tile's box around both ends of the pixel's area.
+std::string grow_area_text(const Emitter& emitter, const GeometryText& geometry) {
+    std::string text = kIndent +
+                       "wr_vec3 n = wr_renormalize(wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), "
+                       "wr_to_real(nz)), wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(1)))), dp_dx, dp_dy;\n" +
+                       kIndent + "const struct { wr_real x, y; } at = {x, y};\n" + kIndent + "{\n" +
+                       face_viewer_text(emitter) + derivative_text(emitter, geometry.along) + kIndent + "}\n" +
+                       axis_text(emitter);
+    for (const char* end : {"first", "last"})
+        text += fmt::format("{}box = wr_grow(box, valid, wr_fma(taps.along, wr_on_plane(taps, taps.{}), p), axes);\n",
+                            kIndent, end);
+    return text;
+}
 
 /// Text that grows the tile's box around p, or around where on its ray parallaxes may move it.
 std::string grow_text(const Emitter& emitter, const MovedPoints& moved) {
@@ -37,7 +60,8 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     const GeometryText geometry = geometry_text(emitter);
     const MovedPoints moved = moved_points(emitter, kIndent);
     std::vector<std::string> inputs = geometry.planes;
-    if (moved.by_normal) inputs.insert(inputs.end(), {"normal.x", "normal.y", "normal.z"});
+    const bool area = over_area(emitter), normals = moved.by_normal || area;
+    if (normals) inputs.insert(inputs.end(), {"normal.x", "normal.y", "normal.z"});
     std::string planes;
     for (const std::string& plane : inputs)
         planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
@@ -62,9 +86,9 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
 }}
 
 )",
-        planes, load_geometry(geometry, kLoad, kIndent) + (moved.by_normal ? load_normal(kLoad, kIndent) : ""),
-        moved.by_normal ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent),
-        geometry.position, grow_text(emitter, moved));
+        planes, load_geometry(geometry, kLoad, kIndent) + (normals ? load_normal(kLoad, kIndent) : ""),
+        normals ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent), geometry.position,
+        area ? grow_area_text(emitter, geometry) : grow_text(emitter, moved));
     return {"wr_bin_tiles", inputs, {}, {}, 0};
 }
 

@@ -32,7 +32,8 @@ std::string LayerText::strength() { return number("scale", signed_scale); }
 const char* LayerText::exactly() const { return emitter.precision(layer) == Precision::exact ? "_exact" : ""; }
 
 std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
-    return layer.footprint ? fmt::format("wr_texture_lod(t, {}, {})", dx, dy) : "(wr_real)(0)";
+    if (!layer.footprint) return "(wr_real)(0)";
+    return fmt::format("{}(t, {}, {})", over_area() ? "wr_area_lod" : "wr_texture_lod", dx, dy);
 }
 
 std::string LayerText::located(const TextureUse& use, TexelKind kind) {
@@ -42,9 +43,46 @@ std::string LayerText::located(const TextureUse& use, TexelKind kind) {
            fmt::format("        wr_texture t = wr_texture_at(texels, textures, {});\n", emitter.texture(use, kind));
 }
 
+bool LayerText::over_area() const { return varies_over_area(emitter, layer); }
+
+bool LayerText::tells_spread() const { return wants_spread(emitter) && over_area(); }
+
+std::string LayerText::spread(const std::string& along_s, const std::string& along_t) {
+    if (!tells_spread()) return {};
+    section.operations += 40;
+    return fmt::format(
+        "        finer = wr_add(finer, wr_spread_along(lost, m * {}, wr_on_axes({}, right, down), wr_on_axes({}, "
+        "right, "
+        "down)));\n",
+        strength(), along_s, along_t);
+}
+
+std::string LayerText::once(const char* type, const char* name, const std::string& value) {
+    if (!over_area()) return value;
+    const std::string own = fmt::format("{}_{}", name, emitter.index_of(layer));
+    declared += fmt::format("        {} {};\n", type, own);
+    prepared += fmt::format("        {} = {};\n", own, value);
+    return own;
+}
+
 std::string LayerText::textured(const TextureUse& use, const char* declared) {
-    const std::string text = located(use, texel_kind(use)) +
-                             fmt::format("        {} = {};\n", declared, sample_text(use, "c.st", lod("c.dx", "c.dy")));
+    std::string text = located(use, texel_kind(use));
+    if (over_area()) {
+        prepared += text;
+        details_before = "        wr_real m = 0;\n" + text;
+        details = "wr_texels_along(t, c, taps)";
+    }
+    const std::string level = once("wr_real", "lod", lod("c.dx", "c.dy"));
+    text += fmt::format("        {} = {};\n", declared, sample_text(use, "c.st", level));
+    if (texel_kind(use) != TexelKind::vector && tells_spread()) {
+        const char* wrap = use.wrap == Wrap::clamp ? "wr_clamp" : "wr_repeat";
+        section.operations += 58;
+        text += fmt::format(
+            "        wr_texture squares = wr_texture_at(texels, textures, {0});\n"
+            "        wr_vec3 lost = wr_lost_spread(wr_texture_sample3(squares, {1}(c.st.x), {1}(c.st.y), {2}), "
+            "slope);\n",
+            emitter.texture(use, TexelKind::moments), wrap, level);
+    }
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");
     section.operations += sample_cost(use);
@@ -56,10 +94,19 @@ std::string LayerText::slopes(const std::string& function, const std::string& ar
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");
     section.operations += *exactly() ? kExactSlopes : kSlopes;
-    return fmt::format(
-        "        wr_vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
-        "        g = wr_fma(bump, m * {}, g);\n",
-        function, exactly(), arguments, strength());
+    std::string basis, text;
+    const bool scaled = function == "scale_dependent" && over_area();
+    if (scaled && (!*exactly() || tells_spread()))
+        basis = once("wr_slope_basis", "basis", "wr_slope_basis_of(n, dp_dx, dp_dy, c.dx, c.dy)");
+    if (scaled && !*exactly())
+        text =
+            fmt::format("        g = wr_fma(wr_surface_gradient_on_basis({}, slope), m * {}, g);\n", basis, strength());
+    else
+        text = fmt::format(
+            "        wr_vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
+            "        g = wr_fma(bump, m * {}, g);\n",
+            function, exactly(), arguments, strength());
+    return scaled ? text + spread(basis + ".s", basis + ".t") : text;
 }
 
 std::string LayerText::volume(const std::string& gradient) {

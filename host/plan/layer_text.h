@@ -12,6 +12,12 @@ struct LayerText {
     const Layer& layer;                       ///< the first of them
     const std::string who;                    ///< starts messages
     Section& section;
+    /// What does not differ between the points of a pixel's area: declarations, and the statements that set them, which
+    /// stand before the first point and are skipped where no pixel wants the layer. Both empty where it has one point.
+    std::string declared{}, prepared{};
+    /// Statements before, and the kernel text of, how many of the layer's finest details lie along one pixel of the
+    /// long axis of the pixel's area, which are all that more points can tell apart; empty where nobody knows.
+    std::string details_before{}, details{};
 
     /// Kernel text of a number of the layer, or of three as a vector; `what`: for people to read.
     std::string number(const std::string& what, std::function<double(const Layer&)> of) {
@@ -24,6 +30,8 @@ struct LayerText {
     std::string strength();
     /// What ends the name of a kernel function that has an exact variant.
     const char* exactly() const;
+    /// Kernel text of a value that does not differ between the points of a pixel's area, set once for all of them.
+    std::string once(const char* type, const char* name, const std::string& value);
     /// Level of detail of texture `t` for these derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
     /// Declares coordinates `c`, by the layer's own mapping, texture `t` and its sample.
@@ -32,6 +40,14 @@ struct LayerText {
     std::string located(const TextureUse& use, TexelKind kind);
     /// Adds the surface gradient of a height, of the kernel function of that name and its arguments after dp_dx, dp_dy.
     std::string slopes(const std::string& function, const std::string& arguments);
+    /// Whether the layer is evaluated at several points of the pixel's area, whose footprints are alike.
+    bool over_area() const;
+    /// Whether the layer is to tell what of it is finer than a point's share of the pixel's area, by adding that
+    /// covariance of slopes to `finer`.
+    bool tells_spread() const;
+    /// Adds the covariance `lost` of slopes along s and t, given the kernel text of the surface gradient that a slope
+    /// of 1 along s makes, and one along t. Nothing where it is not to be told.
+    std::string spread(const std::string& along_s, const std::string& along_t);
     /// Adds a volume gradient, to be projected onto the surface unless the layer says otherwise.
     std::string volume(const std::string& gradient);
 };

@@ -54,9 +54,45 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
     return stages;
 }
 
+/// Whether light can fall on the points of pixels' areas: once layers vary over them, nothing else bends the normal.
+bool lights_points(const Emitter& emitter, const std::vector<Stage>& stages) {
+    const Scene& scene = emitter.scene;
+    if (!emitter.options.write_normal || scene.lighting.relight == Relight::off || scene.filter.light_mean ||
+        scene.filter.taps == 1)
+        return false;
+    bool area = false;
+    for (const Stage& stage : stages)
+        for (const Section& section : stage.layers) {
+            if (area && !section.area) return false;
+            area |= section.area;
+        }
+    return area;
+}
+
+/// Joins consecutive sections that vary over a pixel's area.
+std::vector<Section> join_areas(Emitter& emitter, Stage& stage, AreaUse& use) {
+    std::vector<Section> joined;
+    for (std::size_t i = 0; i < stage.layers.size();) {
+        if (!stage.layers[i].area) {
+            joined.push_back(std::move(stage.layers[i++]));
+            continue;
+        }
+        std::vector<Section> together;
+        for (; i < stage.layers.size() && stage.layers[i].area; ++i) together.push_back(std::move(stage.layers[i]));
+        joined.push_back(emit_area(emitter, together, use));
+        use.first = false;
+    }
+    return joined;
+}
+
 /// The sections of the whole evaluation, in order.
 std::vector<Section> emit_sections(Emitter& emitter) {
     std::vector<Stage> stages = emit_stages(emitter);
+    AreaUse area{wants_spread(emitter), lights_points(emitter, stages)};
+    for (Stage& stage : stages) {
+        stage.layers = join_areas(emitter, stage, area);
+        for (const Section& section : stage.layers) stage.reads.insert(section.reads.begin(), section.reads.end());
+    }
     std::set<std::string> first = stages.front().reads;
     std::vector<const Layer*> mapped;
     for (const Stage& stage : stages) {  // decoded once, for all stages; texture coordinates need derivatives
@@ -92,7 +128,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         bumped |= bends;
     }
     const int last = static_cast<int>(stages.size()) - 1;
-    if (relight && emitter.options.write_normal) add(emit_lighting(emitter), last);
+    if (relight && emitter.options.write_normal) add(emit_lighting(emitter, {area.lights, area.spread}), last);
     add(emit_output(emitter, bumped), last);
     if (emitter.options.split)  // where fused kernels start from zero, split ones must find zero in memory
         for (const char* sum : {"g", "dh_dp"})
@@ -180,8 +216,13 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         kernel.operations += section->operations;
         text += fmt::format("\n    // stage {}: {}\n    {{\n{}    }}\n", section->stage,
                             *section->kind ? section->kind : section->title, section->body);
-        plan.sections.push_back(
-            {section->stage, section->title, {section->inputs.begin(), section->inputs.end()}, section->operations});
+        std::vector<SectionSummary> told = section->parts;
+        if (told.empty())
+            told = {{0, section->title, {section->inputs.begin(), section->inputs.end()}, section->operations}};
+        for (SectionSummary& part : told) {
+            part.stage = section->stage;
+            plan.sections.push_back(std::move(part));
+        }
     }
     text += store + "}\n\n";
     return kernel;

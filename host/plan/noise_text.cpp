@@ -157,9 +157,33 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
         points = fmt::format("p, p_low,\n            eye_places + {}, eye_places + {}", 4 * first,
                              4 * add_lattice(at, l, of, space, true));
     }
-    return fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {});\n", fractal_text(at, l, of, space.pairs),
-                       points, at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active) +
-           shape_text(at, l.shape, of);
+    const bool spread = at.tells_spread(), area = at.over_area();
+    std::string text = area ? "        wr_real lost;\n" : "";
+    std::string walk;
+    if (area) {
+        // Each noise of a layer has octaves of its own to hold.
+        const std::string held = fmt::format("held_{}", 4 * first);
+        at.declared += fmt::format("        wr_field {}[{}];\n", held, l.octaves);
+        text +=
+            fmt::format("        wr_walk walk = {{tap, taps.count - (wr_real)((WR_SCALAR)tap), {}, wanted_{}, {}}};\n",
+                        space.step, at.emitter.index_of(at.layer), held);
+        walk = ", &walk, &lost";
+        // Half a cell of the finest octave is told apart.
+        if (space.point == "p")
+            at.details = fmt::format("2 * eye_places[{}] * sqrt(wr_dot(taps.along, taps.along))",
+                                     4 * (first + static_cast<std::size_t>(l.octaves)) - 1);
+    }
+    text += fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {}{});\n", fractal_text(at, l, of, space.pairs),
+                        points, at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active, walk);
+    const std::string shape = shape_text(at, l.shape, of);
+    if (!spread || shape.empty()) return text + shape;
+    // A shape scales gradients by its derivative, which a gradient of 1 then is.
+    return text +
+           "        wr_vec3 noise_gradient = f.gradient;\n"
+           "        f.gradient = wr_v3((wr_real)(1), (wr_real)(0), (wr_real)(0));\n" +
+           shape +
+           "        lost *= f.gradient.x * f.gradient.x;\n"
+           "        f.gradient = wr_scale(noise_gradient, f.gradient.x);\n";
 }
 
 }  // namespace wrinkle

@@ -18,7 +18,8 @@ struct NoiseSpace {
     std::function<NoiseAxes(const Layer&)> axes = [](const Layer&) { return NoiseAxes{}; };
     std::string point = "p";  ///< axes . p, p relative to the eye
     std::string footprint = "wr_footprint_size(dp_dx, dp_dy)", active = "active";
-    bool pairs = false;  ///< of floats place p in the lattice; only of the world's axes
+    std::string step = "dp_dx";  ///< axes . dp_dx
+    bool pairs = false;          ///< of floats place p in the lattice; only of the world's axes
 };
 
 /// Declares `f`, the value of a noise and its gradient along those coordinates.

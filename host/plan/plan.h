@@ -87,7 +87,15 @@ std::vector<double> numbers_of(const PlannedNumbers& planned, const NumberSource
 using PlannedEyePlace = std::function<EyePlace(const NumberSource&)>;
 
 /// A texture as kernels sample it.
-enum class TexelKind { slope, height, mask, vector, volume, volume_smooth };
+enum class TexelKind {
+    slope,
+    moments,  ///< the squares and the product of slopes
+    height,
+    mask,
+    vector,
+    volume,
+    volume_smooth
+};
 struct PlannedTexture {
     TextureUse use;
     TexelKind kind = TexelKind::slope;

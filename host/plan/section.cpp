@@ -31,6 +31,7 @@ const std::vector<Value>& values() {
         {"vertex_tb_valid", "wr_mask", {""}},
         {"g", "wr_vec3", {".x", ".y", ".z"}},
         {"dh_dp", "wr_vec3", {".x", ".y", ".z"}},
+        {"spread", "wr_vec3", {".x", ".y", ".z"}},
         {"lit", "wr_vec3", {".x", ".y", ".z"}},
     };
     return all;

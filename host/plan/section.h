@@ -27,6 +27,12 @@ struct Section {
     std::vector<std::string> outputs;
     double operations = 0;
     int stage = 0;
+    std::vector<SectionSummary> parts{};  ///< what people are told of; none: of the section itself
+    bool area = false;     ///< a layer that varies over a pixel's area; its body is evaluated at points of it
+    std::string wanted;    ///< of such a layer: the name of the lanes that want it
+    std::string masks;     ///< ... what is declared for all points, and the mask by planes
+    std::string prepared;  ///< ... and what is set then for all points
+    std::string cells;     ///< ... and what raises `cells` to how many of its finest details a pixel's long axis holds
 };
 
 /// What emitters share while a plan grows.
@@ -80,8 +86,15 @@ std::string row_place(const DecalsLayer& table, std::size_t row);
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 /// How many layers from `first` on go into one section.
 std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first);
-/// Kernel text that sets `m`, in [0,1], and the planes it reads.
+/// Kernel text that sets `m`, in [0,1], and `active`, and the planes it reads.
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
+/// The same in two parts: what planes say of it, which is the same for all of a pixel, and the rest.
+struct MaskText {
+    std::string planes;  ///< declares m
+    std::string rest;    ///< goes on with m, and declares active
+    bool everywhere;     ///< `planes` does not say where it is 0
+};
+MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section);
 /// Kernel text that declares `wanted`: true wherever one of the layers may be, by what planes say of their masks. No
 /// text where a layer has no such mask and may be anywhere.
 std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section);
@@ -112,7 +125,35 @@ struct StageEnd {
 };
 /// Projects, resolves, and sets up the next stage if there is one.
 Section emit_resolve(Emitter& emitter, const StageEnd& stage);
-Section emit_lighting(Emitter& emitter);
+/// Layers over a pixel's area, and what is known of what follows.
+struct AreaUse {
+    bool spread = false;  ///< the covariance of the slopes is wanted
+    bool lights = false;  ///< light falls on every point of the area; a later area does so anew where it bends
+    bool first = true;    ///< no area is before it
+};
+/// One section for consecutive ones that vary over the area: evaluates them at several points of it, and sets g and
+/// dh_dp to the means.
+Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const AreaUse& use);
+/// Whether a scene's layers are evaluated at several points of a pixel, or their spread is wanted.
+bool walks_area(const Emitter& emitter);
+/// Kernel text that declares the long axis of the pixel's area, `taps`.
+std::string axis_text(const Emitter& emitter);
+/// Whether a layer is evaluated at several points of a pixel's area. A table of decals is not where a parallax before
+/// it moves points: the tiles that it is binned to would have to know how far.
+bool varies_over_area(const Emitter& emitter, const Layer& layer);
+/// Whether a scene wants to know how the slopes vary over a pixel.
+bool wants_spread(const Emitter& emitter);
+
+/// What lighting is given.
+struct LightEnd {
+    bool at_taps = false;  ///< `lit` is there: the mean over the pixel's area
+    bool spread = false;   ///< the covariance of the slopes is known
+};
+Section emit_lighting(Emitter& emitter, const LightEnd& end);
+/// Kernel text that declares v, albedo and roughness of the pixel.
+std::string lit_surface_text(Emitter& emitter, Section& section);
+/// Kernel text that declares roughness alone.
+std::string roughness_text(Emitter& emitter, Section& section);
 /// Stores what the scene wants written.
 Section emit_output(Emitter& emitter, bool bumped);
 

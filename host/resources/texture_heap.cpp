@@ -20,39 +20,57 @@ int wrapped(int i, int size, Wrap wrap) {
     return wrap == Wrap::clamp ? std::clamp(i, 0, size - 1) : ((i % size) + size) % size;
 }
 
-/// The next coarser level: means of 2x2 texels.
+/// The next coarser level, half as many texels each way: every texel is the mean over the area that it covers. Where
+/// the finer level has an odd number of them, a texel covers two and a part of a third.
 Image half(const Image& fine) {
+    struct Share {
+        int texel;
+        float weight;
+    };
+    const auto shares = [](int fine_size, int coarse_size) {
+        std::vector<std::vector<Share>> all(static_cast<std::size_t>(coarse_size));
+        for (int i = 0; i < coarse_size; ++i) {
+            const double texels = static_cast<double>(fine_size) / coarse_size, from = i * texels, to = from + texels;
+            for (int k = static_cast<int>(from); k < fine_size && k < to; ++k)
+                if (const double covered = std::min(to, k + 1.0) - std::max(from, static_cast<double>(k));
+                    covered > 1e-9)
+                    all[static_cast<std::size_t>(i)].push_back({k, static_cast<float>(covered / texels)});
+        }
+        return all;
+    };
     Image coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), fine.channels, {}};
-    for (int y = 0; y < coarse.height; ++y)
-        for (int x = 0; x < coarse.width; ++x)
+    coarse.texels.reserve(static_cast<std::size_t>(coarse.width) *
+                          static_cast<std::size_t>(coarse.height * coarse.channels));
+    const auto columns = shares(fine.width, coarse.width), rows = shares(fine.height, coarse.height);
+    for (const std::vector<Share>& row : rows)
+        for (const std::vector<Share>& column : columns)
             for (int c = 0; c < coarse.channels; ++c) {
-                const int x1 = std::min(2 * x + 1, fine.width - 1), y1 = std::min(2 * y + 1, fine.height - 1);
-                coarse.texels.push_back(0.25f * (fine.at(2 * x, 2 * y, c) + fine.at(x1, 2 * y, c) +
-                                                 fine.at(2 * x, y1, c) + fine.at(x1, y1, c)));
+                float mean = 0;
+                for (const Share& y : row)
+                    for (const Share& x : column) mean += y.weight * x.weight * fine.at(x.texel, y.texel, c);
+                coarse.texels.push_back(mean);
             }
     return coarse;
 }
 
-/// Appends the slopes per unit of texture coordinate of a level of heights, with a border of one texel: the derivative
-/// matrix D against the smoothing matrix B of [Mik20 eq. 20, 21], at texel centres. The border's slopes are those of
-/// the heights as they wrap: beyond a clamped edge there is none across it.
-void append_slopes(TextureHeap& heap, const Image& h, Wrap wrap) {
-    for (int y = -1; y <= h.height; ++y) {
+/// The slopes of heights per unit of texture coordinate: the derivative matrix D against the smoothing matrix B of
+/// [Mik20 eq. 20, 21], at texel centres. Beyond a clamped edge the heights go on as they are there.
+Image slopes_of_heights(const Image& h, Wrap wrap) {
+    Image slopes{h.width, h.height, 2, {}};
+    slopes.texels.reserve(2 * h.texels.size());
+    for (int y = 0; y < h.height; ++y) {
         const int down = wrapped(y - 1, h.height, wrap), up = wrapped(y + 1, h.height, wrap);
-        const int middle = wrapped(y, h.height, wrap);
-        for (int x = -1; x <= h.width; ++x) {
+        for (int x = 0; x < h.width; ++x) {
             const int left = wrapped(x - 1, h.width, wrap), right = wrapped(x + 1, h.width, wrap);
-            const int here = wrapped(x, h.width, wrap);
             const double s = (h.at(right, down, 0) - h.at(left, down, 0)) +
-                             2.0 * (h.at(right, middle, 0) - h.at(left, middle, 0)) +
-                             (h.at(right, up, 0) - h.at(left, up, 0));
-            const double t = (h.at(left, up, 0) - h.at(left, down, 0)) +
-                             2.0 * (h.at(here, up, 0) - h.at(here, down, 0)) +
+                             2.0 * (h.at(right, y, 0) - h.at(left, y, 0)) + (h.at(right, up, 0) - h.at(left, up, 0));
+            const double t = (h.at(left, up, 0) - h.at(left, down, 0)) + 2.0 * (h.at(x, up, 0) - h.at(x, down, 0)) +
                              (h.at(right, up, 0) - h.at(right, down, 0));
-            heap.texels.push_back(static_cast<float>(s / 8 * h.width));
-            heap.texels.push_back(static_cast<float>(t / 8 * h.height));
+            slopes.texels.push_back(static_cast<float>(s / 8 * h.width));
+            slopes.texels.push_back(static_cast<float>(t / 8 * h.height));
         }
     }
+    return slopes;
 }
 
 bool is_whole(const PlannedTexture& planned) { return planned.region == std::array<double, 4>{0, 0, 1, 1}; }
@@ -101,17 +119,32 @@ void append(TextureHeap& heap, const Image& level, Wrap wrap) {
         }
 }
 
+/// The squares of two slopes and their product, for the covariance of what a level no longer shows.
+Image products(const Image& slopes) {
+    Image out{slopes.width, slopes.height, 3, {}};
+    out.texels.reserve(slopes.texels.size() / 2 * 3);
+    for (std::size_t i = 0; i + 2 <= slopes.texels.size(); i += 2) {
+        const float s = slopes.texels[i], t = slopes.texels[i + 1];
+        out.texels.insert(out.texels.end(), {s * s, s * t, t * t});
+    }
+    return out;
+}
+
 /// The finest level, of which the coarser ones are means.
-Image finest_level(const Image& image, const TextureUse& use) {
-    if (use.content == Content::normal) return slopes_of_normals(image, use.y_down);
-    return use.content == Content::slope && use.y_down ? turned_down(image) : image;
+Image finest_level(const Image& image, const PlannedTexture& planned) {
+    const TextureUse& use = planned.use;
+    const bool slopes = planned.kind == TexelKind::slope || planned.kind == TexelKind::moments;
+    Image level = is_whole(planned) ? image : cropped(image, planned.region);
+    if (use.content == Content::normal) level = slopes_of_normals(level, use.y_down);
+    if (use.content == Content::slope && use.y_down) level = turned_down(std::move(level));
+    if (slopes && use.content == Content::height) level = slopes_of_heights(level, use.wrap);
+    return planned.kind == TexelKind::moments ? products(level) : level;
 }
 
 }  // namespace
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
-    const bool sobel = planned.kind == TexelKind::slope && planned.use.content == Content::height;
-    Image level = finest_level(is_whole(planned) ? image : cropped(image, planned.region), planned.use);
+    Image level = finest_level(image, planned);
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -119,10 +152,7 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        if (sobel)
-            append_slopes(heap, level, planned.use.wrap);
-        else
-            append(heap, level, planned.use.wrap);
+        append(heap, level, planned.use.wrap);
         if (level.width == 1 && level.height == 1) {
             ++count;
             break;

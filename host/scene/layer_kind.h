@@ -55,6 +55,7 @@ struct LayerKind {
     std::string (*emit)(LayerText& at) = nullptr;
 
     std::span<const LayerUse> uses{};  ///< none: as it is, without further roles
+    bool once_a_pixel = false;         ///< it goes by neighbouring pixels, or moves the pixel's point
     bool ends_stage = false;           ///< it is no bump: the surface made so far is what later layers bump
     bool without_normal = false;       ///< it is a gradient in space, good without any normal (accumulate_decals)
     bool users_own = false;            ///< the user wrote what it computes: only measuring tells what that costs

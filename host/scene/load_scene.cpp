@@ -78,6 +78,7 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out) {
     if (auto table = root.table("camera", "[camera]", false)) read_camera(*table, out.camera);
     read_layers(root, kinds, out.layers);
     read_lights(root, out.lighting);
+    if (auto table = root.table("filter", "[filter]")) read_filter(*table, out.filter);
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);
     if (auto table = root.table("budget", "[budget]")) read_budget(*table, out.budget);
 }

@@ -128,7 +128,15 @@ void read_camera(Table& table, CameraSource& out) {
     table.finish();
 }
 
+void read_filter(Table& table, Filter& out) {
+    table.read("taps", out.taps, 1, 64);
+    table.choose("light", out.light_mean, {{"taps", false}, {"mean", true}});
+    table.finish();
+}
+
 void read_output(Table& table, Output& out) {
+    table.read("roughness", out.roughness);
+    table.read("slope_covariance", out.slope_covariance);
     table.read("surface_gradient", out.surface_gradient);
     table.read("dp_dx", out.dp_dx);
     table.read("dp_dy", out.dp_dy);

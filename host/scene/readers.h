@@ -20,6 +20,7 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out);
 
 void read_gbuffer(Table& table, GBufferSource& out);
 void read_camera(Table& table, CameraSource& out);
+void read_filter(Table& table, Filter& out);
 void read_output(Table& table, Output& out);
 void read_budget(Table& table, ErrorBudget& out);
 

@@ -19,7 +19,17 @@
 /// several at once.
 namespace [[gnu::visibility("default")]] wrinkle {
 
+/// How a pixel's area is filtered.
+struct Filter {
+    /// Points of the pixel's area at which layers are evaluated, at most; 1: only its centre, as if the area were
+    /// round.
+    int taps = 16;
+    bool light_mean = false;  ///< light falls on the mean normal, made rougher, instead of on every point
+};
+
 struct Output {
+    bool roughness = false;         ///< the frame's or the scene's, as the bumps of a pixel's area widen it
+    bool slope_covariance = false;  ///< of the bumps in a pixel's area, along the image's axes on the surface
     bool surface_gradient = false, dp_dx = false, dp_dy = false, marked = false;  ///< beside the normal
     bool condition = false;    ///< how the normal magnifies input errors; by render(), not by a pass (run/condition.h)
     bool passthrough = false;  ///< copy the channels and metadata of the input
@@ -40,6 +50,7 @@ struct Scene {
     CameraSource camera;
     std::vector<Layer> layers;
     Lighting lighting;
+    Filter filter;
     Output output;
     ErrorBudget budget;
 };

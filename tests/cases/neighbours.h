@@ -116,9 +116,8 @@ inline Cases neighbour_cases() {
         const Pixel here{seed % 50 != 0, 3.0f, {0, 0, 1}, {}, {0.5L, 0.5L}};
         const real fold = seed % 11 == 0 ? 0 : seed % 7 == 0 ? -1 : 1;  // -1: a seam mirrors the coordinates
         const Pixel before = make(-1, random.below(3) == 0, 1), after = make(1, random.below(3) == 0, fold);
-        auto backward = uv_difference(here, before, dp), forward = uv_difference(here, after, dp);
+        auto [forward, backward] = uv_differences(here, before, after, dp);
         if (!here.valid) backward = forward = std::nullopt;
-        if (backward) backward = *backward * real{-1};
         const auto want = combine_differences(forward, backward);
         c.add("neighbours, seed " + std::to_string(seed), seed % 2 == 0);
         c.in("dp", dp), c.in("here_valid", here.valid ? 1 : 0);

@@ -22,8 +22,8 @@ TEST(Lighting, TwoNormalsAtOnce) {
     check(
         cases::lighting_cases(),
         light_it +
-            "wr_vec3 base, both = wr_light_surface(p, unit(n), unit(m), unit(v), albedo, roughness, lighting, "
-            "lights, &base);",
+            "wr_vec3 base, both = wr_light_surface(p, unit(n), roughness, unit(m), roughness, unit(v), albedo, "
+            "lighting, lights, &base);",
         {{"lit", xyz("both"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative, 1e-11},
          {"base", xyz("base"), ErrorMeasure::relative, cases::lighting_relative, cases::smooth_lighting_relative,
           1e-11}});
@@ -48,6 +48,19 @@ TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
             for (std::size_t i = 0; i < channel.size(); ++i)
                 EXPECT_TRUE(std::isfinite(channel[i])) << "row " << i << ", " << lanes << " lanes";
     }
+}
+
+TEST(Lighting, RoughnessWidensByTwiceTheVariance) {
+    cases::Cases c{.name = "widened roughness"};
+    for (const real roughness : {0.0L, 0.03L, 0.3L, 1.0L})
+        for (const real xx : {0.0L, 1e-12L, 0.01L, 0.5L, 100.0L}) {
+            c.add(fmt::format("roughness {}, variance {}", double(roughness), double(xx)), true);
+            c.in("roughness", roughness), c.in("spread", V{xx, 0.1L * xx, 2 * xx});
+            const real r = static_cast<float>(roughness), x = static_cast<float>(xx), z = static_cast<float>(2 * xx);
+            c.out("wide", std::min(std::pow(r * r * r * r + x + z, 0.25L), real{1}));
+        }
+    check(c, "wr_real wide = wr_widened_roughness(roughness, spread);",
+          {{"wide", {"wide"}, ErrorMeasure::absolute, 1e-6, 1e-6}});
 }
 
 TEST(Lighting, RatioIsBounded) {

@@ -64,11 +64,15 @@ TEST(NoiseFamily, MeansAreThoseOfTheReference) {
         const auto want = reference::noise_means<double>(layer);
         const Results got =
             run_kernel({fmt::format("wr_noise_means m = wr_noise_mean((wr_noise){{.basis = {}}});", basis),
-                        {"(wr_real)(m.value)", "(wr_real)(m.magnitude)", "(wr_real)(m.square)"}},
+                        {"(wr_real)(m.value)", "(wr_real)(m.magnitude)", "(wr_real)(m.square)", "(wr_real)(m.slope)",
+                         "(wr_real)(m.magnitude_slope)", "(wr_real)(m.square_slope)"}},
                        {{"unused", {0}}}, {1, false});
         EXPECT_FLOAT_EQ(static_cast<float>(got[0][0]), static_cast<float>(want.value)) << basis;
         EXPECT_FLOAT_EQ(static_cast<float>(got[1][0]), static_cast<float>(want.magnitude)) << basis;
         EXPECT_FLOAT_EQ(static_cast<float>(got[2][0]), static_cast<float>(want.square)) << basis;
+        EXPECT_FLOAT_EQ(static_cast<float>(got[3][0]), static_cast<float>(want.slope)) << basis;
+        EXPECT_FLOAT_EQ(static_cast<float>(got[4][0]), static_cast<float>(want.magnitude_slope)) << basis;
+        EXPECT_FLOAT_EQ(static_cast<float>(got[5][0]), static_cast<float>(want.square_slope)) << basis;
     }
 }
 

@@ -10,6 +10,8 @@ namespace wrinkle::reference {
 template <class T>
 struct NoiseMeans {
     T value{}, magnitude{}, square{};
+    T slope{}, magnitude_slope{},
+        square_slope{};  ///< of g^2, |n| g^2 and n^2 g^2; g^2: a third of the gradient's square
 };
 
 enum class Octaves { sum, turbulence, ridged };
@@ -27,11 +29,11 @@ struct Fractal {
 template <class T>
 using OctaveNoise = std::function<NoiseValue<T>(int octave, Vec<T> p)>;
 
-/// How much of an octave remains when a pixel spans so many of its lattice cells: all up to a quarter, nothing from a
-/// half (the Nyquist limit) on.
+/// How much of an octave remains when a pixel spans so many of its lattice cells: all up to a half, nothing from
+/// a whole one on.
 template <class T>
 T octave_weight(T cells) {
-    return saturate(2 - 4 * cells);
+    return saturate(2 - 2 * cells);
 }
 
 /// Fractals of noise with octaves above the footprint's Nyquist frequency faded to their means. Sum and turbulence:

@@ -189,12 +189,9 @@ private:
     std::optional<UvChange<T>> from_neighbours(std::size_t i, const Decoded<T>& here, std::size_t stride,
                                                std::size_t index, std::size_t count, Vec<T> dp) const {
         const UvPixel<T> centre = uv_pixel(i, here);
-        std::optional<UvChange<T>> forward, backward;
-        if (index + 1 < count) forward = uv_difference(centre, neighbour(i + stride), dp);
-        if (index > 0) {
-            backward = uv_difference(centre, neighbour(i - stride), dp);
-            if (backward) backward = *backward * T(-1);
-        }
+        const UvPixel<T> after = index + 1 < count ? neighbour(i + stride) : UvPixel<T>{};
+        const UvPixel<T> before = index > 0 ? neighbour(i - stride) : UvPixel<T>{};
+        const auto [forward, backward] = uv_differences(centre, before, after, dp);
         return combine_differences(forward, backward);
     }
 

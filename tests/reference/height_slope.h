@@ -66,6 +66,19 @@ Vec2<T> smooth_slope(const Pyramid<T>& height, Vec2<T> st, T lod, Address wrap) 
     return at(l.level) * (1 - l.f) + at(l.level + 1) * l.f;
 }
 
+/// Smooth slopes per unit s and t of a whole texture: its levels are means of the finest one's slopes.
+template <class T>
+Pyramid<T> smooth_slopes(const Level<T>& height, Address wrap) {
+    Level<T> top{height.width, height.height, {}};
+    for (int c = 0; c < 2; ++c)
+        for (int y = 0; y < height.height; ++y)
+            for (int x = 0; x < height.width; ++x) {
+                const Vec2<T> d = sobel(height, x, y, wrap);
+                top.texels.push_back(c == 0 ? d.x * height.width : d.y * height.height);
+            }
+    return build_pyramid(std::move(top), 2);
+}
+
 /// [Mik20 listing 16, isUpscaleHQ = true] as published: the plain slope fades into the smooth one of level 0 below a
 /// lod of 0.5. Per level-0 texel.
 template <class T>

@@ -102,14 +102,19 @@ TEST(Noise, MeansAreThoseOfSamples) {
         const auto noise = octave_noise<double>(layer);
         NoiseMeans<double> sum;
         for (int i = 0; i < count; ++i) {
-            const double n = noise(0, {along(engine), along(engine), along(engine)}).value;
+            const NoiseValue<double> at = noise(0, {along(engine), along(engine), along(engine)});
+            const double n = at.value, g = dot(at.gradient, at.gradient) / 3 / count;
             sum.value += n / count, sum.magnitude += std::abs(n) / count, sum.square += n * n / count;
+            sum.slope += g, sum.magnitude_slope += std::abs(n) * g, sum.square_slope += n * n * g;
         }
         const NoiseMeans<double> want = noise_means<double>(layer);
         const double spread = 4 * std::sqrt(want.square / count);  // four standard deviations
         EXPECT_NEAR(sum.value, want.value, spread);
         EXPECT_NEAR(sum.magnitude, want.magnitude, spread);
         EXPECT_NEAR(sum.square, want.square, spread);
+        EXPECT_NEAR(sum.slope, want.slope, 0.02 * want.slope);
+        EXPECT_NEAR(sum.magnitude_slope, want.magnitude_slope, 0.03 * want.magnitude_slope);
+        EXPECT_NEAR(sum.square_slope, want.square_slope, 0.05 * want.square_slope);
     }
 }
 
@@ -138,7 +143,7 @@ TEST(Fractal, FadedOctavesKeepTheLevelOfTurbulence) {
     const OctaveNoise<real> noise = [](int, Vec<real> q) { return perlin_noise(q); };
     const NoiseMeans<real> means = noise_means<real>(NoiseLayer{});
     const Fractal<real> f{1, 4, 2, 0.5L, Octaves::turbulence};
-    const NoiseValue<real> n = fractal<real>(f, noise, means, {0.3L, 0.6L, 0.9L}, 0.5L);
+    const NoiseValue<real> n = fractal<real>(f, noise, means, {0.3L, 0.6L, 0.9L}, 1);
     EXPECT_NEAR(n.value, means.magnitude * 1.875L, 1e-15L);
     EXPECT_EQ(length(n.gradient), 0);
 }

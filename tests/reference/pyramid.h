@@ -37,8 +37,15 @@ struct Pyramid {
     std::vector<Level<T>> levels;
 };
 
-/// The next mip level. Its sides are half as long, rounded down, and at least 1. Each texel is the mean of the 2x2
-/// texels that it covers; their indices 2x and 2x + 1 are clamped to the last one.
+/// The share of texel k of n, as intervals of [0, 1], that cell i of m covers.
+template <class T>
+T covered_share(int k, int n, int i, int m) {
+    const T from = std::max(T(k) / n, T(i) / m), to = std::min(T(k + 1) / n, T(i + 1) / m);
+    return std::max(to - from, T(0)) * m;
+}
+
+/// The next mip level. Its sides are half as long, rounded down, and at least 1. Each texel is the mean over the area
+/// that it covers: of 2x2 texels, and of parts of a third where a side is odd.
 template <class T>
 Level<T> half_size(const Level<T>& fine, int channels) {
     Level<T> coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
@@ -46,8 +53,12 @@ Level<T> half_size(const Level<T>& fine, int channels) {
     for (int c = 0; c < channels; ++c)
         for (int y = 0; y < coarse.height; ++y)
             for (int x = 0; x < coarse.width; ++x) {
-                const auto at = [&](int i, int j) { return fine.at(c, 2 * x + i, 2 * y + j, Address::clamp); };
-                coarse.texels.push_back((at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4);
+                T mean = 0;
+                for (int j = 2 * y; j < std::min(2 * y + 4, fine.height); ++j)
+                    for (int i = 2 * x; i < std::min(2 * x + 4, fine.width); ++i)
+                        mean += covered_share<T>(i, fine.width, x, coarse.width) *
+                                covered_share<T>(j, fine.height, y, coarse.height) * fine.at(c, i, j, Address::clamp);
+                coarse.texels.push_back(mean);
             }
     return coarse;
 }

@@ -26,6 +26,7 @@ template <class T>
 struct LayerTexture {
     std::shared_ptr<const Pyramid<T>> pyramid;  ///< heights, or the two slopes of tangent-space normals
     Content content = Content::height;
+    std::shared_ptr<const Pyramid<T>> slopes;  ///< of heights, for Upscale::smooth
     Upscale upscale = Upscale::smooth;
     Address wrap = Address::repeat;
 
@@ -44,7 +45,8 @@ struct LayerTexture {
         const T level = lod(at.d, footprint);
         if (content != Content::height)
             return {sample(*pyramid, 0, at.st, level, wrap), sample(*pyramid, 1, at.st, level, wrap)};
-        if (upscale == Upscale::smooth) return smooth_slope(*pyramid, at.st, level, wrap);
+        if (upscale == Upscale::smooth)
+            return {sample(*slopes, 0, at.st, level, wrap), sample(*slopes, 1, at.st, level, wrap)};
         return plain_slope(*pyramid, at.st, level, wrap);
     }
 };
@@ -105,11 +107,13 @@ public:
     LayerTexture<T> slopes(const TextureUse& use, Content content, const Region& region = whole) {
         const bool y_down = (content == Content::normal || content == Content::slope) && use.y_down;
         const Address wrap = use.wrap == Wrap::repeat ? Address::repeat : Address::clamp;
-        return {pyramid(use.file.string(), content, y_down, region), content, use.upscale, wrap};
+        const auto values = pyramid(use.file.string(), content, y_down, region);
+        return {values, content, content == Content::height ? smooth(values, wrap) : nullptr, use.upscale, wrap};
     }
     /// The first channel of a file as a texture that repeats, for masks.
     LayerTexture<T> values(const std::string& file) {
-        return {pyramid(file, Content::height, false, whole), Content::height, Upscale::plain, Address::repeat};
+        return {pyramid(file, Content::height, false, whole), Content::height, nullptr, Upscale::plain,
+                Address::repeat};
     }
 
 private:
@@ -126,7 +130,14 @@ private:
         return slot;
     }
 
+    std::shared_ptr<const Pyramid<T>> smooth(const std::shared_ptr<const Pyramid<T>>& heights, Address wrap) {
+        auto& slot = slopes_[{heights.get(), wrap}];
+        if (!slot) slot = std::make_shared<const Pyramid<T>>(smooth_slopes(heights->levels.front(), wrap));
+        return slot;
+    }
+
     const Images& images_;
+    std::map<std::pair<const Pyramid<T>*, Address>, std::shared_ptr<const Pyramid<T>>> slopes_;
     std::map<std::tuple<std::string, Content, bool, Region>, std::shared_ptr<const Pyramid<T>>> pyramids_;
 };
 

@@ -35,14 +35,26 @@ struct UvChange {
     UvChange operator+(const UvChange& b) const { return {uv + b.uv, step + b.step}; }
 };
 
-/// The change from i to j, if there is no break of object, normal, depth or UV between them.
+/// Whether a change of UV says nothing of a seam.
 template <class T>
-std::optional<UvChange<T>> uv_difference(const UvPixel<T>& i, const UvPixel<T>& j, Vec<T> dp) {
-    const Vec2<T> d = j.uv - i.uv;
-    const T half = T(1) / 2;
-    const bool same_chart = std::abs(d.x) < half && std::abs(d.y) < half;
-    if (!same_surface(i, j, dp) || !same_chart) return std::nullopt;
-    return UvChange<T>{d, j.position - i.position};
+bool within_half(Vec2<T> d) {
+    return std::abs(d.x) < T(1) / 2 && std::abs(d.y) < T(1) / 2;
+}
+
+/// The changes from `here` to the next pixel and from the one before, where there is no break of object, normal, depth
+/// or UV between them. A change of half the texture is a break of UV unless the other change is about the same.
+template <class T>
+std::pair<std::optional<UvChange<T>>, std::optional<UvChange<T>>> uv_differences(const UvPixel<T>& here,
+                                                                                 const UvPixel<T>& before,
+                                                                                 const UvPixel<T>& after, Vec<T> dp) {
+    const UvChange<T> forward{after.uv - here.uv, after.position - here.position},
+        backward{here.uv - before.uv, here.position - before.position};
+    const bool next = same_surface(here, after, dp), last = same_surface(here, before, dp);
+    const bool steady = next && last && within_half(forward.uv - backward.uv);
+    std::pair<std::optional<UvChange<T>>, std::optional<UvChange<T>>> out;
+    if (next && (steady || within_half(forward.uv))) out.first = forward;
+    if (last && (steady || within_half(backward.uv))) out.second = backward;
+    return out;
 }
 
 /// The change along an axis, from a forward and a backward difference. When one step of UV is more than twice as long

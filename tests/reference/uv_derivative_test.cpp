@@ -16,7 +16,7 @@ const V dp{0.1L, 0, 0};
 UvPixel<real> right() { return {true, 3.0f, {0, 0, 1}, {0.1L, 0, 0}, {0.52L, 0.51L}}; }
 
 TEST(UvDerivative, NeighbourOnTheSameSurfaceGivesTheDifference) {
-    const Difference d = uv_difference(here, right(), dp);
+    const Difference d = uv_differences(here, {}, right(), dp).first;
     ASSERT_TRUE(d);
     EXPECT_NEAR(d->uv.x, 0.02L, 1e-18L);
     EXPECT_NEAR(d->uv.y, 0.01L, 1e-18L);
@@ -27,7 +27,7 @@ TEST(UvDerivative, NoDifferenceAcrossABreak) {
     const auto usable = [](auto change) {
         UvPixel<real> j = right();
         change(j);
-        return uv_difference(here, j, dp).has_value();
+        return uv_differences(here, {}, j, dp).first.has_value();
     };
     EXPECT_FALSE(usable([](auto& j) { j.valid = false; }));
     EXPECT_FALSE(usable([](auto& j) { j.object = 4.0f; }));
@@ -36,6 +36,15 @@ TEST(UvDerivative, NoDifferenceAcrossABreak) {
     EXPECT_FALSE(usable([](auto& j) { j.position = {0.41L, 0, 0}; }));
     EXPECT_FALSE(usable([](auto& j) { j.uv.y = 0; }));
     EXPECT_FALSE(usable([](auto& j) { j.uv.x = std::nanl(""); }));
+}
+
+TEST(UvDerivative, LongStepIsNoSeamWhereTheOtherIsAsLong) {
+    UvPixel<real> after = right(), before = right();
+    after.uv.x = here.uv.x + 0.7L, before.uv.x = here.uv.x - 0.9L, before.position = {-0.1L, 0, 0};
+    EXPECT_TRUE(uv_differences(here, before, after, dp).first && uv_differences(here, before, after, dp).second);
+    before.uv.x = here.uv.x - 0.1L;
+    EXPECT_FALSE(uv_differences(here, before, after, dp).first);
+    EXPECT_TRUE(uv_differences(here, before, after, dp).second);
 }
 
 TEST(UvDerivative, MeanUnlessOneIsMoreThanTwiceTheOther) {

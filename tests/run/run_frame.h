@@ -88,10 +88,12 @@ inline HostFrame data_frame(const std::string& name) {
 
 inline HostFrame small_frame() { return data_frame("small"); }
 
-/// A scene of data/scenes, with `marked` written as well.
+/// A scene of data/scenes, with `marked` written as well, and with one point a pixel: tests of the formulas compare it
+/// with references that have one. tests/run/area_test.cpp has the others.
 inline Scene data_scene(const std::string& name) {
     Scene scene = load_scene(data_folder / "scenes" / (name + ".toml"));
     scene.output.marked = true;
+    scene.filter.taps = 1;
     return scene;
 }
 

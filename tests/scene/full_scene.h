@@ -121,7 +121,13 @@ outer_angle = 20
 kind = "point"
 position = [4, 5, 6]
 
+[filter]
+taps = 8
+light = "mean"
+
 [output]
+roughness = true
+slope_covariance = true
 surface_gradient = true
 dp_dx = true
 dp_dy = true

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "plan/geometry_text.h"
+
+namespace wrinkle {
+
+namespace {
+
+/// Text that sets how many points it takes, given the layers' text of `cells`.
+std::string count_text(const Emitter& emitter, const std::string& cells) {
+    if (emitter.scene.filter.taps == 1) return {};
+    return fmt::format("        wr_real cells = 0;\n{}        taps.count = wr_tap_count(taps, cells, {});\n", cells,
+                       emitter.scene.filter.taps);
+}
+
+/// What layers add to, and the name of its mean over the area.
+struct Sum {
+    const char *value, *name;
+};
+constexpr Sum kSums[] = {{"g", "sum"}, {"dh_dp", "sum_space"}};
+
+/// Text of the sums for the covariance of slopes.
+constexpr const char* kSpreadSums =
+    "        wr_vec3 right = wr_normalize(dp_dx), down = wr_cross_fast(right, n), products = wr_zero3();\n"
+    "        wr_vec2 first_slope = {0, 0}, mean_slope = {0, 0};\n";
+
+/// Text that makes the covariance of them.
+constexpr const char* kSpreadEnd =
+    "        wr_vec3 variance = wr_v3(products.x - mean_slope.x * mean_slope.x, products.y - mean_slope.x * "
+    "mean_slope.y,\n            products.z - mean_slope.y * mean_slope.y);\n"
+    "        spread = wr_add(spread, wr_v3(fmax(variance.x, (wr_real)(0)), variance.y, fmax(variance.z, "
+    "(wr_real)(0))));\n";
+
+/// Text that adds the slopes of a point to the sums for their covariance.
+constexpr const char* kAddSpread =
+    "            wr_vec2 slope = wr_v2(wr_dot(surface, right), wr_dot(surface, down));\n"
+    "            if (tap == 0) first_slope = slope;\n"
+    "            slope = wr_select(on, wr_sub(slope, first_slope), wr_v2((wr_real)(0), (wr_real)(0)));\n"
+    "            mean_slope = wr_v2(fma(slope.x, share, mean_slope.x), fma(slope.y, share, mean_slope.y));\n"
+    "            finer = wr_add(finer, wr_v3(slope.x * slope.x, slope.x * slope.y, slope.y * slope.y));\n"
+    "            products = wr_select(on, wr_fma(finer, share, products), products);\n";
+
+constexpr const char* kAddLight =
+    "            wr_vec3 bent = wr_resolve(n, surface);\n"
+    "            bent = wr_select(wr_sound(bent), bent, n);\n"
+    "            wr_vec3 light = wr_light_surface(centre, bent, v, albedo, roughness, "
+    "lighting, lights);\n"
+    "            lit_sum = wr_select(on, wr_fma(light, share, lit_sum), lit_sum);\n";
+
+}  // namespace
+
+std::string axis_text(const Emitter& emitter) {
+    std::string right = "(wr_real)(0)", down = right;
+    if (emitter.available.camera == CameraKind::pinhole) {
+        right = "wr_depth_turn(wr_v3(camera->forward), p, dp_dx)";
+        down = "wr_depth_turn(wr_v3(camera->forward), p, dp_dy)";
+    }
+    return fmt::format("        wr_taps taps = wr_taps_of(dp_dx, dp_dy,\n            {},\n            {});\n", right,
+                       down);
+}
+
+bool wants_spread(const Emitter& emitter) {
+    const Scene& scene = emitter.scene;
+    return emitter.options.write_normal && (scene.output.roughness || scene.output.slope_covariance ||
+                                            (scene.filter.taps > 1 && scene.lighting.relight != Relight::off));
+}
+
+bool walks_area(const Emitter& emitter) {
+    return emitter.options.normal && (emitter.scene.filter.taps > 1 || wants_spread(emitter));
+}
+
+bool varies_over_area(const Emitter& emitter, const Layer& layer) {
+    const LayerKind& kind = emitter.kind(layer);
+    if (!walks_area(emitter) || !layer.footprint || kind.once_a_pixel) return false;
+    const auto before = std::span(emitter.scene.layers).first(emitter.index_of(layer));
+    return !kind.binned || std::ranges::none_of(before, [&](const Layer& l) { return emitter.kind(l).moves; });
+}
+
+Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const AreaUse& use) {
+    Section area;
+    area.title = "layers over the pixel's area";
+    area.reads = {"valid", "p", "n", "dp_dx", "dp_dy"};
+    std::string masks, prepared, cells, bumps, wanted;
+    for (const Section& section : sections) {
+        area.reads.insert(section.reads.begin(), section.reads.end());
+        area.writes.insert(section.writes.begin(), section.writes.end());
+        area.inputs.insert(section.inputs.begin(), section.inputs.end());
+        area.operations += section.operations;
+        area.parts.push_back({0, section.title, {section.inputs.begin(), section.inputs.end()}, section.operations});
+        masks += section.masks;
+        wanted += (wanted.empty() ? "" : " | ") + section.wanted;
+        prepared += section.prepared;
+        cells += section.cells;
+        bumps += fmt::format("            // {}\n            {{\n{}            }}\n", section.kind, section.body);
+    }
+    area.reads.insert({"g", "dh_dp"});
+    area.operations += 60;
+    const bool uv = area.reads.contains("uv"), low = area.reads.contains("p_low");
+    std::string sums;
+    for (const Sum& sum : kSums)
+        if (area.writes.contains(sum.value)) sums += fmt::format("        wr_vec3 {} = wr_zero3();\n", sum.name);
+    if (use.lights) {
+        area.reads.insert("lit"), area.writes.insert("lit");
+        area.operations += 20 + 75 * static_cast<double>(emitter.scene.lighting.lights.size());
+        sums += "        wr_vec3 lit_sum = wr_zero3();\n" + lit_surface_text(emitter, area);
+    }
+    if (use.spread) {
+        area.reads.insert("spread"), area.writes.insert("spread");
+        area.operations += 20;
+        sums += kSpreadSums;
+    }
+
+    std::string& text = area.body;
+    // Pixels that no layer wants stay as they are; the first light falls on them all the same.
+    const bool all = use.lights && use.first;
+    text = masks +
+           fmt::format("        const wr_mask wanted = {};\n        if ({}) {{\n", wanted,
+                       all || !emitter.options.skip ? "1" : "wr_any(wanted)") +
+           axis_text(emitter) + count_text(emitter, cells) + sums +
+           "        const wr_shares shares = wr_shares_of(taps);\n"
+           "        const wr_vec3 centre = p, before = g, before_space = dh_dp;\n"
+           "        const wr_vec3 share_dx = wr_scale(taps.along, shares.length), share_dy = taps.across;\n";
+    if (uv)
+        text +=
+            "        const wr_texcoord axes_uv = wr_along_area(uv, taps);\n"
+            "        const wr_texcoord share_uv = {uv.st, wr_scale(axes_uv.dx, shares.length), axes_uv.dy};\n";
+    if (low) text += "        const wr_vec3 centre_low = p_low;\n";
+    // From here on the names that layers read stand for a share of the pixel's area.
+    text += "        {\n        const wr_vec3 dp_dx = share_dx, dp_dy = share_dy;\n";
+    if (uv) text += "        const wr_texcoord uv = share_uv;\n";
+    text += prepared + fmt::format(
+                           "#pragma nounroll\n        for (int tap = 0; tap < {}; ++tap) {{\n"
+                           "            const wr_mask on = valid & (taps.count > (wr_real)((WR_SCALAR)tap));\n"
+                           "            if (!wr_any(on)) break;\n"
+                           "            wr_real weight, shift = wr_tap_at(taps, shares, tap, &weight);\n"
+                           "            const wr_real share = on ? weight : (wr_real)(0);\n"
+                           "            wr_vec3 p = wr_fma(taps.along, shift, centre);\n"
+                           "            wr_vec3 g = before, dh_dp = before_space{};\n"
+                           "            const wr_mask valid = on;\n",
+                           emitter.scene.filter.taps, use.spread ? ", finer = wr_zero3()" : "");
+    if (uv)
+        text +=
+            "            const wr_texcoord uv = {wr_add(axes_uv.st, wr_scale(axes_uv.dx, shift)), share_uv.dx, "
+            "share_uv.dy};\n";
+    if (low)
+        text +=
+            "            wr_vec3 p_low;\n"
+            "            p = wr_moved(centre, centre_low, wr_scale(taps.along, shift), &p_low);\n";
+    text += bumps;
+    for (const Sum& sum : kSums)
+        if (area.writes.contains(sum.value))
+            text +=
+                fmt::format("            {0} = wr_select(on, wr_fma({1}, share, {0}), {0});\n", sum.name, sum.value);
+    if (use.spread || use.lights)
+        text += "            wr_vec3 surface = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
+    if (use.spread) text += kAddSpread;
+    if (use.lights) text += kAddLight;
+    text += "        }\n        }\n";
+    for (const Sum& sum : kSums)
+        if (area.writes.contains(sum.value)) text += fmt::format("        {} = {};\n", sum.value, sum.name);
+    if (use.spread) text += kSpreadEnd;
+    if (use.lights) text += use.first ? "        lit = lit_sum;\n" : "        lit = wr_select(wanted, lit_sum, lit);\n";
+    text += "        }\n";
+    return area;
+}
+
+}  // namespace wrinkle

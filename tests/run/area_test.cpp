@@ -1,0 +1,258 @@
+// What a pixel's area shows, by brute force: the references evaluate layers without any filter at 16 x 16 points of
+// every pixel, and the mean of those surface gradients, their covariance and their light is what a pass must give.
+#include "tests/run/decal_frames.h"
+
+namespace wrinkle::test {
+namespace {
+
+constexpr std::uint32_t kPoints = 16;  // along each side of a pixel
+constexpr Size kSize{24, 16};
+
+/// At (0, -6, 1.2), looking at the ground near the origin: it fills the frame up to a horizon.
+Camera low_camera() {
+    const V eye{0, -6, 1.2}, back = normalize(eye - V{0, 0, 0.3}), right{1, 0, 0}, up = cross(back, right);
+    const auto row = [&](V a) { return std::array<double, 4>{a.x, a.y, a.z, -dot(a, eye)}; };
+    return {{row(right), row(up), row(back), {0, 0, 0, 1}},
+            {{{1.9, 0, 0, 0}, {0, 2.7, 0, 0}, {0, 0, -1.002, -0.2002}, {0, 0, -1, 0}}}};
+}
+
+HostFrame ground(Size size) {
+    HostFrame frame(plane_frame(low_camera(), size, {0, 0, 1}), low_camera());
+    frame.remove("position.x"), frame.remove("position.y"), frame.remove("position.z");
+    for (float& depth : frame.pixels["depth"])
+        if (!(depth > 0 && depth < 60)) depth = 1e10f;
+    return frame;
+}
+
+/// Of a pixel all of whose points lie on the surface.
+struct Area {
+    bool whole = true;
+    V gradient, lit;
+    double xx = 0, xy = 0, yy = 0;  ///< covariance along the image's axes on the surface
+};
+
+std::vector<Area> brute_force(Scene scene) {
+    for (Layer& layer : scene.layers) layer.footprint = false;
+    const HostFrame fine = ground({kSize.width * kPoints, kSize.height * kPoints});
+    const Truth truth(fine, scene);
+    std::vector<Area> areas(std::size_t{kSize.width} * kSize.height);
+    constexpr double share = 1.0 / (kPoints * kPoints);
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+        const std::size_t x = i % fine.frame.size.width / kPoints, y = i / fine.frame.size.width / kPoints;
+        Area& area = areas[y * kSize.width + x];
+        const auto& point = truth.pixels[i];
+        area.whole = area.whole && point.valid;
+        if (!point.valid) continue;
+        const V right = normalize(point.base.dp_dx), down = cross(right, point.base_normal), g = point.surface_gradient;
+        area.gradient = area.gradient + g * share;
+        area.xx += dot(g, right) * dot(g, right) * share, area.xy += dot(g, right) * dot(g, down) * share;
+        area.yy += dot(g, down) * dot(g, down) * share;
+        if (!truth.lit.empty()) area.lit = area.lit + truth.lit[i] * share;
+    }
+    for (Area& area : areas) {  // the ground's axes are those of its frame everywhere
+        area.xx -= area.gradient.x * area.gradient.x, area.yy -= area.gradient.y * area.gradient.y;
+        area.xy += area.gradient.x * area.gradient.y;
+    }
+    return areas;
+}
+
+V normal_of(V gradient) { return normalize(V{0, 0, 1} - gradient); }
+
+/// The angles between the normals of a run and those of the areas, and by how much the areas' tilt from the ground.
+Spread errors(const Pixels& got, const std::vector<Area>& areas) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+        if (areas[i].whole) all.push_back(angle_degrees(vec_at(got, "normal", i), normal_of(areas[i].gradient)));
+    return Spread(all);
+}
+Spread tilts(const std::vector<Area>& areas) {
+    std::vector<double> all;
+    for (const Area& area : areas)
+        if (area.whole) all.push_back(angle_degrees(normal_of(area.gradient), V{0, 0, 1}));
+    return Spread(all);
+}
+
+Scene scene_of(Layer layer, int taps = 16) {
+    Scene scene;
+    layer.name = "bump";
+    scene.layers = {std::move(layer)};
+    scene.output = {.slope_covariance = true, .surface_gradient = true};
+    scene.filter.taps = taps;
+    return scene;
+}
+
+template <class Bump>
+Layer layer_of(Bump bump, double scale) {
+    Layer layer;
+    layer.bump = std::move(bump), layer.scale = scale;
+    return layer;
+}
+
+const fs::path cobbles = data_folder / "textures/cobbles_height.png", weave = data_folder / "textures/weave_normal.png";
+const UvMapping planar{.source = UvSource::planar, .scale = {0.5, 0.5}};
+
+struct AreaCase {
+    std::string name;
+    Layer layer;
+    double median, share;  ///< bounds: degrees; of the error of one point a pixel
+};
+
+/// One of every kind that varies over a pixel. Bounds are about 1.5 times what was measured.
+std::vector<AreaCase> area_cases() {
+    const Layer height = layer_of(HeightMapLayer{{.file = cobbles}, planar}, 0.05);
+    const Layer normal = layer_of(NormalMapLayer{{.file = weave, .content = Content::normal}, planar}, 1);
+    NoiseLayer sum{.frequency = 2, .octaves = 5}, ridges = sum;
+    ridges.fractal = FractalKind::ridged;
+    Layer masked = height;
+    masked.mask.texture = MaskTexture{.file = cobbles, .uv = planar};
+    DecalLayer box{.texture = {.file = cobbles}, .center = {0, 0, 0}, .half_size = {1.3, 2.5, 0.5}};
+    return {{"height_map", height, 3, 0.5},
+            {"height_map by uv", layer_of(HeightMapLayer{{.file = cobbles}, {.scale = {2, 2}}}, 0.05), 3, 0.5},
+            {"normal_map", normal, 3, 0.6},
+            {"noise", layer_of(sum, 0.06), 3, 0.6},
+            {"ridged noise", layer_of(ridges, 0.06), 4, 0.7},
+            {"triplanar", layer_of(TriplanarLayer{.texture = {.file = cobbles}, .tile = 0.5}, 0.05), 3, 0.6},
+            {"masked by texture", masked, 3, 0.7},
+            {"decal", layer_of(box, 0.2), 1, 0.9}};
+}
+
+class AreaCases : public testing::TestWithParam<AreaCase> {};
+
+TEST_P(AreaCases, AreTheMeanOverThePixel) {
+    const auto& [name, layer, median, share] = GetParam();
+    const std::vector<Area> areas = brute_force(scene_of(layer));
+    const HostFrame frame = ground(kSize);
+    const Spread many = errors(evaluate_on(frame, scene_of(layer)), areas);
+    const Spread one = errors(evaluate_on(frame, scene_of(layer, 1)), areas);
+    print(name + ": tilt", tilts(areas), "degrees"), print(name + ": 16 taps", many, "degrees");
+    print(name + ": 1 tap", one, "degrees");
+    EXPECT_EQ(many.non_finite, 0u);
+    EXPECT_LE(many.median, median);
+    EXPECT_LE(many.median, share * one.median);
+}
+
+INSTANTIATE_TEST_SUITE_P(Layers, AreaCases, testing::ValuesIn(area_cases()), [](const auto& info) {
+    std::string name = info.param.name;
+    std::ranges::replace(name, ' ', '_');
+    return name;
+});
+
+/// Root of the sum of both variances, over all whole pixels.
+double sigma(const std::vector<Area>& areas) {
+    double sum = 0;
+    for (const Area& area : areas)
+        if (area.whole) sum += area.xx + area.yy;
+    return std::sqrt(sum);
+}
+
+TEST(Area, CovarianceIsThatOfTheSlopes) {
+    for (const AreaCase& each : area_cases()) {
+        if (each.name == "ridged noise" || each.name == "masked by texture" || each.name == "triplanar") continue;
+        const std::vector<Area> areas = brute_force(scene_of(each.layer));
+        const Pixels got = evaluate_on(ground(kSize), scene_of(each.layer));
+        std::vector<Area> found = areas;
+        double correlation = 0;
+        for (std::size_t i = 0; i < areas.size(); ++i) {
+            found[i].xx = got.at("slope_covariance.xx")[i], found[i].yy = got.at("slope_covariance.yy")[i];
+            found[i].xy = got.at("slope_covariance.xy")[i];
+            EXPECT_GE(found[i].xx * found[i].yy * (1 + 1e-4) + 1e-9, found[i].xy * found[i].xy) << each.name << i;
+            if (areas[i].whole) correlation += found[i].xy * areas[i].xy;
+        }
+        fmt::print("{}: sigma {:.3f}, true {:.3f}\n", each.name, sigma(found), sigma(areas));
+        EXPECT_NEAR(sigma(found) / sigma(areas), 1, 0.2) << each.name;
+        EXPECT_GE(correlation, 0) << each.name << ": the signs of xy";
+    }
+}
+
+TEST(Area, RoughnessGrowsByTheVariance) {
+    Scene scene = scene_of(area_cases()[0].layer);
+    scene.output.roughness = true;
+    scene.lighting.roughness = 0.3;
+    const Pixels got = evaluate_on(ground(kSize), scene);
+    for (std::size_t i = 0; i < got.at("roughness").size(); ++i) {
+        const double variance = double{got.at("slope_covariance.xx")[i]} + got.at("slope_covariance.yy")[i];
+        EXPECT_NEAR(got.at("roughness")[i], std::min(std::pow(0.0081 + variance, 0.25), 1.0), 1e-5);
+    }
+}
+
+double decibels(const Pixels& got, const std::vector<Area>& areas) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        if (!areas[i].whole) continue;
+        const double gap = std::clamp<double>(got.at("lit.r")[i], 0, 1) - std::clamp(areas[i].lit.x, 0.0, 1.0);
+        sum += gap * gap, ++count;
+    }
+    return -10 * std::log10(sum / count);
+}
+
+TEST(Area, LightFallsOnEveryPoint) {
+    Scene scene = scene_of(area_cases()[0].layer);
+    scene.lighting.relight = Relight::lit;
+    scene.lighting.ambient = {0.05, 0.05, 0.05}, scene.lighting.roughness = 0.3;
+    scene.lighting.lights = {Light{.color = {3, 3, 3}, .direction = {0.66, 0.72, -0.42}}};
+    const std::vector<Area> areas = brute_force(scene);
+    const HostFrame frame = ground(kSize);
+    const double at_points = decibels(evaluate_on(frame, scene), areas);
+    scene.filter.light_mean = true;
+    const double of_mean = decibels(evaluate_on(frame, scene), areas);
+    scene.filter = {.taps = 1};
+    const double one = decibels(evaluate_on(frame, scene), areas);
+    fmt::print("lit: {:.1f} dB; by the mean normal {:.1f}; of one point {:.1f}\n", at_points, of_mean, one);
+    EXPECT_GT(at_points, 36);
+    EXPECT_GT(at_points, of_mean + 3);
+    EXPECT_GT(of_mean, one + 3);
+}
+
+TEST(Area, RoundFootprintsTakeOnePoint) {
+    const Camera camera{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -5}, {0, 0, 0, 1}}},
+                        {{{20, 0, 0, 0}, {0, 20, 0, 0}, {0, 0, -1.002, -0.2002}, {0, 0, -1, 0}}}};
+    const HostFrame frame(plane_frame(camera, {32, 32}, {0, 0, 1}), camera);
+    const Layer height = area_cases()[0].layer;
+    Scene many = scene_of(height), one = scene_of(height, 1);
+    many.output = one.output = {};
+    const Pixels a = evaluate_on(frame, many), b = evaluate_on(frame, one);
+    EXPECT_LT(largest_difference(a, b), 2e-3);
+}
+
+TEST(Area, TableOfOneRowIsTheDecal) {
+    DecalLayer box{.texture = {.file = cobbles}, .center = {0, 0, 0}, .half_size = {1.3, 2.5, 0.5}};
+    Projector row{.center = box.center, .half_size = box.half_size, .falloff = {0, 0, 0}};
+    row.falloff = {box.falloff, box.falloff, box.falloff}, row.angle_fade = box.angle_fade;
+    Scene table = table_scene({row});
+    std::get<DecalsLayer>(table.layers[0].bump).textures = {{.file = cobbles}};
+    const HostFrame frame = ground({96, 64});
+    EXPECT_LT(largest_difference(evaluate_on(frame, table), evaluate_on(frame, scene_of(layer_of(box, 1)))), 1e-5);
+}
+
+TEST(Area, NoDecalOfATableIsLost) {
+    const HostFrame frame = ground({96, 64});
+    const std::vector<Projector> rows = on_surfaces(frame, 60, 0.05, 1, 3);
+    Scene table = table_scene(rows), alone = table;
+    table.output = {.surface_gradient = true}, alone.output = table.output;
+    const Pixels all = evaluate_on(frame, table);
+    std::vector<V> sum(frame.count());
+    for (const Projector& row : rows) {  // a table of one row has nothing to bin apart
+        std::get<DecalsLayer>(alone.layers[0].bump).rows = std::make_shared<const std::vector<Projector>>(1, row);
+        const Pixels one = evaluate_on(frame, alone);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + vec_at(one, "surface_gradient", i);
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        EXPECT_LE(length(vec_at(all, "surface_gradient", i) - sum[i]), 1e-4 * (1 + length(sum[i]))) << "pixel " << i;
+}
+
+TEST(Area, SequencesOfStagesAddTheirCovariances) {
+    Layer height = area_cases()[0].layer, resolve, noise = area_cases()[3].layer;
+    height.name = "height", resolve.bump = ResolveLayer{}, resolve.name = "resolve", noise.name = "noise";
+    Scene both = scene_of(height), first = both;
+    both.layers = {height, resolve, noise};
+    const Pixels a = evaluate_on(ground(kSize), both), b = evaluate_on(ground(kSize), first);
+    double grown = 0;
+    for (std::size_t i = 0; i < kSize.width * kSize.height; ++i) {
+        EXPECT_GE(a.at("slope_covariance.xx")[i] + 1e-6f, b.at("slope_covariance.xx")[i]);
+        grown += a.at("slope_covariance.xx")[i] - b.at("slope_covariance.xx")[i];
+    }
+    EXPECT_GT(grown, 0.1);
+}
+
+}  // namespace
+}  // namespace wrinkle::test
