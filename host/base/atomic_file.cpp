@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -20,10 +19,16 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-/// A name that no other process and no other file of this one has, so that two writers of one target do not collide.
-std::filesystem::path partial_name(const std::filesystem::path& target) {
-    static std::atomic<int> count{0};
-    return folder_of(target) / fmt::format(".{}.{}-{}.partial", target.filename().string(), ::getpid(), ++count);
+/// Calls `make` with new names until it succeeds or fails for another reason than that the name is taken.
+template <class Make>
+bool with_new_name(const std::filesystem::path& target, std::filesystem::path& name, const Make& make) {
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries; ++i) {
+        name = temporary_name(target);
+        if (make(name)) return true;
+        if (errno != EEXIST) return false;
+    }
+    return false;
 }
 
 }  // namespace
@@ -53,7 +58,6 @@ AtomicFile::AtomicFile(std::filesystem::path target, Temporary temporary) : targ
     if (!std::filesystem::is_directory(folder, code)) {
         throw Error(fmt::format("cannot write {}: there is no folder {}", target_.string(), folder.string()));
     }
-    partial_ = partial_name(target_);
     if (temporary == Temporary::named || !open_unnamed(folder)) open_named();
     copy_permissions();
 }
@@ -66,14 +70,25 @@ AtomicFile::~AtomicFile() {
 bool AtomicFile::open_unnamed(const std::filesystem::path& folder) {
     descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, default_mode);
     if (descriptor_ < 0) return false;
+    hold_temporary(descriptor_);  // for the moment in which it has a temporary name after all: link_into_place()
     if (::access(fmt::format("/proc/self/fd/{}", descriptor_).c_str(), F_OK) == 0) return true;
     ::close(std::exchange(descriptor_, -1));  // without /proc the file could never be given a name
     return false;
 }
 
 void AtomicFile::open_named() {
-    descriptor_ = ::open(partial_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, default_mode);
-    if (descriptor_ < 0) {
+    remove_abandoned(target_);
+    const bool made = with_new_name(target_, partial_, [&](const std::filesystem::path& name) {
+        DoomedFile doomed(name);
+        descriptor_ = ::open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, default_mode);
+        if (descriptor_ < 0) return false;
+        doomed_.emplace(std::move(doomed));
+        if (hold_temporary(descriptor_)) return true;
+        ::close(std::exchange(descriptor_, -1));  // another writer took it for one that nobody writes any more
+        errno = EEXIST;
+        return false;
+    });
+    if (!made) {
         throw Error(fmt::format("cannot write {}: the folder {} is not writable: {}", target_.string(),
                                 folder_of(target_).string(), std::strerror(errno)));
     }
@@ -98,9 +113,13 @@ void AtomicFile::link_into_place() {
     if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, target_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
     // A link cannot replace a file that exists. So the new file is linked beside it, then renamed, which replaces the
     // old one in a single step.
-    if (errno != EEXIST || ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, partial_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
-        throw Error(failure(std::strerror(errno)));
-    }
+    const auto link = [&](const std::filesystem::path& name) {
+        DoomedFile doomed(name);
+        if (::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0) return false;
+        doomed_.emplace(std::move(doomed));
+        return true;
+    };
+    if (errno != EEXIST || !with_new_name(target_, partial_, link)) { throw Error(failure(std::strerror(errno))); }
     named_ = true;
 }
 
@@ -112,13 +131,23 @@ void AtomicFile::sync() const {
     if (::fsync(descriptor_) != 0) throw Error(failure(std::strerror(errno)));
 }
 
+/// Without it, the new name might be lost with the power. Some file systems cannot do so, and need not.
+void AtomicFile::sync_folder() const {
+    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    ::fsync(folder);
+    ::close(folder);
+}
+
 void AtomicFile::commit() {
     sync();
     if (!named_) link_into_place();
     if (named_) {
         if (::rename(partial_.c_str(), target_.c_str()) != 0) throw Error(failure(std::strerror(errno)));
         named_ = false;
+        doomed_.reset();
     }
+    sync_folder();
     // Network file systems may report an error of an earlier write only now.
     if (::close(std::exchange(descriptor_, -1)) != 0) {
         throw Error(fmt::format("cannot write {}: {}", target_.string(), std::strerror(errno)));

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "base/temporary_name.h"
 
 namespace wrinkle {
 
@@ -12,7 +15,9 @@ int write_all(int descriptor, std::string_view bytes);
 /// A file that appears under its name only when it is complete.
 ///
 /// It is written to an unnamed file (O_TMPFILE) in the target's folder, so that not even `kill -9` leaves anything
-/// behind; file systems without such files get ".NAME.PID.partial", removed unless commit() succeeds.
+/// behind; file systems without such files (many network ones) get ".NAME.RANDOM.partial", which goes unless commit()
+/// succeeds: with this object, with the signal that ends the program (base/temporary_name.h), or when the same file is
+/// written the next time.
 class AtomicFile {
 public:
     enum class Temporary { unnamed_if_possible, named };
@@ -43,8 +48,10 @@ private:
     void open_named();
     void copy_permissions() const;
     void link_into_place();
+    void sync_folder() const;
 
     std::filesystem::path target_, partial_;
+    std::optional<DoomedFile> doomed_;
     int descriptor_ = -1;
     bool named_ = false;  ///< partial_ exists and is ours to remove
 };

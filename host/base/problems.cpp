@@ -20,6 +20,7 @@ void Problems::throw_if_any() {
         const std::string place = location(line);
         text += fmt::format("{}{}{}{}", text.empty() ? "" : "\n", place, place.empty() ? "" : ": ", problem);
     }
+    if (more_ > 0) text += fmt::format("\n{}: and {} more", file_name_, more_);
     throw Error(text);
 }
 

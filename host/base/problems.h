@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -12,7 +13,16 @@ class Problems {
 public:
     explicit Problems(std::string file_name) : file_name_(std::move(file_name)) {}
 
-    void add(std::uint32_t line, std::string text) { found_.emplace_back(line, std::move(text)); }
+    void add(std::uint32_t line, std::string text) {
+        if (enough())
+            ++more_;
+        else
+            found_.emplace_back(line, std::move(text));
+    }
+
+    /// Whether further ones are only counted, so that nothing needs to be said about them. Nobody reads a thousand
+    /// lines, and a file can have a hundred thousand.
+    bool enough() const { return found_.size() >= kMost; }
 
     /// "scene.toml:12"
     std::string location(std::uint32_t line) const;
@@ -21,7 +31,10 @@ public:
     void throw_if_any();
 
 private:
+    static constexpr std::size_t kMost = 200;
+
     std::string file_name_;
+    std::size_t more_ = 0;
     std::vector<std::pair<std::uint32_t, std::string>> found_;
 };
 

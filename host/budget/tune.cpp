@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/folder_lock.h"
 #include "budget/choose_precision.h"
 #include "budget/error_sample.h"
 #include "device/guarded.h"
@@ -148,6 +149,7 @@ DeviceCosts measure_costs(const Device& device, const std::vector<Scene>& scenes
 }
 
 void merge_costs(const std::filesystem::path& file, const DeviceCosts& measured) {
+    const FolderLock lock(file.parent_path());  // two that measure at once would lose the one's rows
     std::vector<DeviceCosts> tables = read_costs(file);
     const auto same = std::ranges::find_if(tables, [&](const DeviceCosts& table) {
         return table.device == measured.device && table.driver == measured.driver &&

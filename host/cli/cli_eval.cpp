@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/same_file.h"
 #include "cli/commands.h"
 #include "cli/eval_outputs.h"
 #include "cli/options.h"
@@ -25,6 +26,9 @@ void evaluate(const EvalArguments& arguments, const Function& function, Function
     for (const std::string& text : arguments.in) in.push_back(parse_eval_file(text));
     for (const std::string& text : arguments.out) out.push_back(parse_eval_file(text));
     const EvalOutputs outputs(function, out);
+    std::vector<std::filesystem::path> read;
+    for (const EvalFile& file : in) read.push_back(file.file);
+    for (const EvalFile& file : out) refuse_to_replace(file.file, read);
     const EvalInputs<T> inputs = read_inputs<T>(function, in);
     std::optional<Size> size;
     if (inputs.shape.size() == 2)

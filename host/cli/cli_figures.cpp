@@ -2,8 +2,11 @@
 
 #include <memory>
 
+#include "base/same_file.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "layers/kinds.h"
+#include "scene/check_scene.h"
 #include "tools/draw_figure.h"
 #include "wrinkle/error.h"
 
@@ -28,6 +31,7 @@ void figures(const FigureArguments& arguments) {
     const Device device = Device::open(arguments.device);
     for (const Figure& figure : figures) {
         const std::filesystem::path picture = arguments.directory / figure.scene.file.stem() += ".png";
+        refuse_to_replace(picture, scene::files_of(layer_kinds(), figure.scene));
         draw_figure(device, figure, picture);
         fmt::print("wrote {}\n", picture.string());
     }

@@ -1,16 +1,20 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "base/same_file.h"
 #include "cli/checks.h"
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
+#include "layers/kinds.h"
 #include "run/open_frame.h"
+#include "scene/check_scene.h"
 #include "tools/scatter.h"
 
 namespace wrinkle::cli {
@@ -40,9 +44,11 @@ std::vector<std::string> planes_of(Geometry geometry) {
 
 void scatter(ScatterArguments arguments) {
     const Scene scene = load_scene(arguments.scene);
+    refuse_to_replace(arguments.file, scene::files_of(layer_kinds(), scene));
     check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+    refuse_to_replace(arguments.file, std::array{reader.path(), frame_path(scene.camera.file, number)});
     check_residual(read_frame_camera(scene.camera, reader, number), scene.camera.max_residual, reader);
     const Frame frame = describe_frame(scene, number);
     std::map<std::string, std::vector<float>> pixels;

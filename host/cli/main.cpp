@@ -1,16 +1,18 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 
 #include "cli/commands.h"
+#include "cli/process.h"
+#include "io/volume_child.h"
 #include "wrinkle/error.h"
 
 int main(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN);  // reaching the limit of a file's size then is an error of write(), like a full disk
+    if (argc > 1 && std::strcmp(argv[1], wrinkle::io::kServeVolume) == 0) return wrinkle::io::serve_volume(argc, argv);
+    wrinkle::cli::prepare_process();
     CLI::App app{
         "wrinkle evaluates bump mapping after the render: a G-buffer in, new normals and a lit picture out.\n"
         "\n"
@@ -41,6 +43,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_bake(app);
     wrinkle::cli::add_bench(app);
     wrinkle::cli::add_tune(app);
+    wrinkle::cli::add_limit_options(app);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty())
@@ -51,24 +54,24 @@ int main(int argc, char** argv) {
         if (error.get_exit_code() == 0) return app.exit(error);
         const auto used = app.get_subcommands();
         const std::string command = used.empty() ? "" : used.front()->get_name() + " ";
-        fmt::print(stderr, "wrinkle: {}\nRun \"wrinkle {}--help\" for what it can do.\n", error.what(), command);
+        wrinkle::cli::tell(fmt::format("{}\nRun \"wrinkle {}--help\" for what it can do.", error.what(), command));
         return 2;
     } catch (const wrinkle::Error& error) {
-        fmt::print(stderr, "wrinkle: {}\n", error.what());
+        wrinkle::cli::tell(error.what());
         return 1;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "wrinkle: out of memory\n");
+        wrinkle::cli::tell("out of memory");
         return 1;
     } catch (const std::exception& error) {
         if (std::ferror(stdout) != 0) {
-            fmt::print(stderr, "wrinkle: cannot write the output\n");
+            wrinkle::cli::tell("cannot write the output");
             return 1;
         }
-        fmt::print(stderr, "wrinkle: unexpected failure, a defect of wrinkle: {}\n", error.what());
+        wrinkle::cli::tell(fmt::format("unexpected failure, a defect of wrinkle: {}", error.what()));
         return 3;
     }
     if (std::fflush(stdout) != 0) {
-        fmt::print(stderr, "wrinkle: cannot write the output: {}\n", std::strerror(errno));
+        wrinkle::cli::tell(fmt::format("cannot write the output: {}", std::strerror(errno)));
         return 1;
     }
     return 0;

@@ -1,13 +1,14 @@
 #include "device/program_cache.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
+
+#include "base/atomic_file.h"
+#include "base/input_file.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle {
 
@@ -31,14 +32,10 @@ std::string hash_name(const std::string& text) {
 
 std::string with_length(const std::string& key) { return fmt::format("{:016x}{}", key.size(), key); }
 
-/// Where a program is written before it has its name: of this process and call alone.
-fs::path unfinished_name(const fs::path& file) {
-    static std::atomic<int> count{0};
-    fs::path beside = file;
-    return beside += fmt::format(".{}-{}", ::getpid(), ++count);
+/// Of this version, and of those before it, which gave them another name.
+bool is_unfinished(const fs::path& file) {
+    return file.extension() == ".partial" || file.stem().extension() == kExtension;
 }
-
-bool is_unfinished(const fs::path& file) { return file.stem().extension() == kExtension; }
 
 /// Deletes the longest unused programs of a folder until the rest is within `limit` bytes, and what killed runs left.
 /// Other processes may do the same: a file that is gone already is none.
@@ -50,9 +47,10 @@ void prune(const fs::path& folder, std::uintmax_t limit) {
     };
     std::vector<Entry> entries;
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
         std::error_code gone;
-        const Entry found{entry.path(), entry.last_write_time(gone), entry.file_size(gone)};
+        const Entry found{at->path(), at->last_write_time(gone), at->file_size(gone)};
         if (gone) continue;
         if (found.file.extension() == kExtension) entries.push_back(found);
         if (is_unfinished(found.file) && fs::file_time_type::clock::now() - found.used > kAbandoned)
@@ -84,9 +82,10 @@ fs::path cache_file(const std::string& key) {
 
 // A file is: magic, hash of the rest, length of the key as 16 hex digits, key, binary.
 std::vector<unsigned char> read_program(const fs::path& file, const std::string& key) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return {};
-    const std::string content{std::istreambuf_iterator<char>(in), {}};
+    std::string content;
+    try {
+        content = InputFile(file, "a built program").read_all();
+    } catch (const Error&) { return {}; }  // not there, or something else of that name: it is built anew
     const std::size_t header = sizeof kMagic - 1 + 32;
     if (content.size() <= header || !content.starts_with(kMagic)) return {};
     const std::string rest = content.substr(header), expected = with_length(key);
@@ -102,16 +101,11 @@ void write_program(const fs::path& file, const std::string& key, const std::vect
     rest.append(binary.begin(), binary.end());
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
-    const fs::path beside = unfinished_name(file);
-    {
-        std::ofstream out(beside, std::ios::binary);
-        out << kMagic << hash_name(rest) << rest;
-        if (!out.flush()) {
-            fs::remove(beside, ignored);
-            return;
-        }
-    }
-    fs::rename(beside, file, ignored);
+    try {
+        AtomicFile out(file);
+        out.write(kMagic + hash_name(rest) + rest);
+        out.commit();
+    } catch (const Error&) { return; }  // a cache that cannot be written is none
     prune(file.parent_path(), limit);
 }
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "io/image_open.h"
+#include "base/only_errors.h"
 #include "io/reason.h"
 #include "wrinkle/error.h"
 
@@ -39,9 +39,8 @@ struct BandReader::Range {
     }
 };
 
-BandReader::BandReader(std::unique_ptr<OIIO::ImageInput> input, std::filesystem::path file, Size size,
-                       std::vector<Part> parts)
-    : input_(std::move(input)), file_(std::move(file)), zip_blocks_(file_), size_(size), parts_(std::move(parts)) {}
+BandReader::BandReader(OpenImage image, Size size, std::vector<Part> parts)
+    : image_(std::move(image)), size_(size), parts_(std::move(parts)), zip_blocks_(image_.file(), parts_) {}
 
 void BandReader::read(std::uint32_t row_begin, std::uint32_t row_end, std::span<const WantedChannel> wanted) {
     std::map<std::pair<int, bool>, Range> ranges;
@@ -55,7 +54,9 @@ void BandReader::read(std::uint32_t row_begin, std::uint32_t row_end, std::span<
         range.end = first ? place.index + 1 : std::max(range.end, place.index + 1);
         range.wanted.push_back(channel);
     }
-    for (const auto& [key, range] : ranges) read_range(range, row_begin, row_end);
+    only_errors(image_.file()->path().c_str(), [&] {
+        for (const auto& [key, range] : ranges) read_range(range, row_begin, row_end);
+    });
 }
 
 void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::uint32_t row_end) {
@@ -110,8 +111,9 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
     scratch_.resize(std::max(scratch_.size(), row_floats * static_cast<std::size_t>(last - first)));
     if (follows) std::ranges::copy(held.rows, scratch_.begin());
     const auto row = [&](int y_of) { return scratch_.data() + row_floats * static_cast<std::size_t>(y_of - first); };
-    if (read_from < end && !read_zip_blocks(range, read_from, end, row(read_from)) &&
-        !read_interleaved(*input_, range, read_from, end, row(read_from)))
+    const std::span<float> out(row(read_from), row(last));
+    if (read_from < end && !read_zip_blocks(range, read_from, end, out) &&
+        !read_interleaved(image_.input(), range, read_from, end, out))
         fail(range, read_from, end);
     const int keep = std::max(first, round_down(std::max(y_end - overlap, 0), step));
     if (row_floats * static_cast<std::size_t>(last - keep) > scratch_floats)  // tall tiles are read again instead
@@ -121,34 +123,36 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
     return first;
 }
 
-bool BandReader::read_zip_blocks(const Range& range, int y_begin, int y_end, float* out) {
+bool BandReader::read_zip_blocks(const Range& range, int y_begin, int y_end, std::span<float> out) {
     std::vector<BlockChannel> channels;
-    for (const auto& channel : range.wanted)
-        channels.push_back({channel.place.stored_name, out + (channel.place.index - range.begin)});
+    for (const auto& [place, to] : range.wanted)
+        channels.push_back({place.stored_name, out.subspan(static_cast<std::size_t>(place.index - range.begin)),
+                            place.whole_numbers, place.half});
     return zip_blocks_.read(range.part, channels, y_begin, y_end, range.channels());
 }
 
-bool BandReader::read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, float* out) {
+bool BandReader::read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end,
+                                  std::span<float> out) {
     const auto& part = parts_[static_cast<std::size_t>(range.part)];
     const auto type = range.whole_numbers ? OIIO::TypeUInt32 : OIIO::TypeFloat;
     const int from = part.origin_y + y_begin, to = part.origin_y + y_end;
     if (part.tile_height > 0) {
         return input.read_tiles(range.part, 0, part.origin_x, part.origin_x + part.width, from, to, 0, 1, range.begin,
-                                range.end, type, out);
+                                range.end, type, out.data());
     }
-    return input.read_scanlines(range.part, 0, from, to, 0, range.begin, range.end, type, out);
+    return input.read_scanlines(range.part, 0, from, to, 0, range.begin, range.end, type, out.data());
 }
 
 void BandReader::fail(const Range& range, int y_begin, int y_end) {
-    const auto why = reason(input_->geterror());
+    const auto why = reason(image_.input().geterror());
     const auto& part = parts_[static_cast<std::size_t>(range.part)];
     const int step = part.tile_height > 0 ? part.tile_height : 1;
-    const auto again = open_image(file_);  // a stream that failed reads nothing more
+    const auto again = image_.again();
     int bad = y_begin;
-    while (bad + step < y_end && read_interleaved(*again, range, bad, bad + step, scratch_.data())) bad += step;
-    again->geterror();
+    while (bad + step < y_end && read_interleaved(again.input(), range, bad, bad + step, scratch_)) bad += step;
+    again.input().geterror();
     throw Error(fmt::format("{}: row {} of {} cannot be read{}: the file is truncated or damaged; render it again",
-                            file_.string(), bad + part.y, size_.height, why));
+                            image_.file()->name(), bad + part.y, size_.height, why));
 }
 
 }  // namespace wrinkle::io

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <OpenImageIO/imageio.h>
-
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "io/image_open.h"
 #include "io/image_parts.h"
 #include "io/zip_blocks.h"
 
@@ -25,7 +23,7 @@ struct WantedChannel {
 /// may belong to two bands, so the last ones of a band are kept for the next.
 class BandReader {
 public:
-    BandReader(std::unique_ptr<OIIO::ImageInput> input, std::filesystem::path file, Size size, std::vector<Part> parts);
+    BandReader(OpenImage image, Size size, std::vector<Part> parts);
 
     /// Rows [row_begin, row_end) of the frame. Throws Error naming the first row that cannot be read.
     void read(std::uint32_t row_begin, std::uint32_t row_end, std::span<const WantedChannel> wanted);
@@ -45,15 +43,14 @@ private:
     /// row that the scratch memory begins with.
     int fetch(const Range& range, int y, int y_end);
     /// False when the rows have to be read by OpenImageIO, which is slower.
-    bool read_zip_blocks(const Range& range, int y_begin, int y_end, float* out);
-    bool read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, float* out);
+    bool read_zip_blocks(const Range& range, int y_begin, int y_end, std::span<float> out);
+    bool read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, std::span<float> out);
     [[noreturn]] void fail(const Range& range, int y_begin, int y_end);
 
-    std::unique_ptr<OIIO::ImageInput> input_;
-    std::filesystem::path file_;
-    ZipBlocks zip_blocks_;
+    OpenImage image_;
     Size size_;
     std::vector<Part> parts_;
+    ZipBlocks zip_blocks_;
     std::vector<float> scratch_;  ///< interleaved rows; reused, as touching fresh memory costs as much as the copy
     std::map<std::pair<int, bool>, Held> held_;  ///< by number of the part, and whether its numbers are whole ones
 };

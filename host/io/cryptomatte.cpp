@@ -37,6 +37,13 @@ std::optional<std::uint32_t> parse_hex(std::string_view digits) {
     return static_cast<std::uint32_t>(std::stoul(std::string(digits), nullptr, 16));
 }
 
+/// Whether a name leads nowhere but to a file beside the frame. Whoever made the frame chose it, and may not choose
+/// which other files are read.
+bool is_bare_name(const std::string& name) {
+    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos &&
+           name.find('\0') == std::string::npos;
+}
+
 /// Which "cryptomatte/KEY/" of the header describes `layer`. Names that differ by a prefix count as the same, and a
 /// header with a single cryptomatte describes that one.
 std::string find_key(const Metadata& header, const std::string& layer) {
@@ -68,7 +75,7 @@ CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::stri
     if (key.empty()) return;
     auto text = header.text(key + "manifest").value_or("");
     std::string origin = file.string();
-    if (const auto beside = header.text(key + "manif_file"); text.empty() && beside && !beside->empty()) {
+    if (const auto beside = header.text(key + "manif_file"); text.empty() && beside && is_bare_name(*beside)) {
         const auto path = file.parent_path() / *beside;
         try {
             text = read_text(path);

@@ -101,16 +101,15 @@ bool GBufferReader::Impl::sample_packed_normals() const {
 
 GBufferReader::GBufferReader(std::filesystem::path file, const GBufferSource& source)
     : impl_(std::make_unique<Impl>()) {
-    auto input = io::open_image(file);
+    io::OpenImage opened(file);
     impl_->path = std::move(file);
-    impl_->image = io::list_parts(*input, impl_->path);
+    impl_->image = io::list_parts(opened.input(), impl_->path);
     for (const auto& place : impl_->image.channels) {
         impl_->channels.push_back(place.name);
         impl_->places[place.name] = &place;
     }
     impl_->roles = detect(impl_->path, impl_->channels, source);
-    impl_->reader =
-        std::make_unique<io::BandReader>(std::move(input), impl_->path, impl_->image.size, impl_->image.parts);
+    impl_->reader = std::make_unique<io::BandReader>(std::move(opened), impl_->image.size, impl_->image.parts);
     if (impl_->roles.cryptomatte_ranks > 0) {
         impl_->cryptomatte = CryptomatteManifest(metadata(), impl_->roles.cryptomatte_layer, impl_->path);
     }

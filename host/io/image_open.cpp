@@ -1,14 +1,15 @@
 #include "io/image_open.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <array>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <string_view>
+#include <utility>
 
+#include "base/claim.h"
+#include "io/exr_header.h"
+#include "io/image_format.h"
+#include "io/input_proxy.h"
 #include "io/reason.h"
 #include "wrinkle/error.h"
 
@@ -16,43 +17,56 @@ namespace wrinkle::io {
 namespace {
 
 /// Whether a PNG ends before its last chunk. It is checked here since libpng would print its own message to stderr.
-bool is_cut_png(const std::filesystem::path& file) {
-    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-    std::ifstream in(file, std::ios::binary);
-    std::array<char, 8> word{};  // first the signature, then the length and type of each chunk
-    in.read(word.data(), word.size());
-    if (!in || std::string_view(word.data(), word.size()) != signature) return false;
-    while (in.read(word.data(), word.size())) {
-        if (std::string_view(word.data() + 4, 4) == "IEND") return false;
+bool is_cut_png(const InputFile& file) {
+    constexpr std::size_t kSignature = 8, kChecksum = 4;
+    std::array<unsigned char, 8> head{};  // the length and type of a chunk
+    for (std::uint64_t at = kSignature; file.read_at(at, head.data(), head.size()) == head.size();) {
+        if (std::string_view(reinterpret_cast<const char*>(head.data()) + 4, 4) == "IEND") return false;
         std::uint32_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(word[i]);
-        in.seekg(std::int64_t{length} + 4, std::ios::cur);  // 4: the chunk's checksum
+        for (std::size_t i = 0; i < 4; ++i) length = length << 8 | head[i];
+        at += head.size() + length + kChecksum;
     }
     return true;
 }
 
+/// What the file's first picture would take as floats. A file of another kind than EXR, which is judged before, is
+/// compressed at most as well as deflate does it, and its bytes may become floats.
+void check_size(const OIIO::ImageSpec& spec, const InputFile& file) {
+    const double floats = double{1.0} * spec.width * spec.height * spec.depth * spec.nchannels;
+    check_claim(file.name(), {fmt::format("a picture of {}x{} pixels", spec.width, spec.height), floats * sizeof(float),
+                              file.size(), kDeflate * sizeof(float)});
+}
+
 }  // namespace
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file, const OIIO::ImageSpec& options) {
-    std::error_code code;
-    const auto status = std::filesystem::status(file, code);
-    if (!std::filesystem::exists(status)) {
-        const bool missing = status.type() == std::filesystem::file_type::not_found;
-        throw Error(fmt::format("{}: {}", file.string(), missing ? "no such file" : code.message()));
+OpenImage::OpenImage(const std::filesystem::path& file, const OIIO::ImageSpec& options)
+    : OpenImage(std::make_shared<const InputFile>(file, "an image"), options) {}
+
+OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpec& options) : file_(std::move(file)) {
+    const std::string name = file_->name();
+    if (file_->size() == 0)
+        throw Error(fmt::format("{}: the file is empty (0 bytes); was it still being written?", name));
+    const auto format = image_format(*file_);
+    if (format.empty()) throw Error(fmt::format("{}: not an image; {} was expected", name, kImageFormats));
+    if (format == "png" && is_cut_png(*file_))
+        throw Error(fmt::format("{}: the PNG is truncated; was it still being written?", name));
+    if (format == "openexr") check_exr_header(file_);
+    if (format == "jpeg") {  // OpenImageIO's reader takes files of its own, or memory
+        bytes_ = std::make_unique<std::string>(file_->read_all());
+        proxy_ = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes_->data(), bytes_->size());
+    } else {
+        proxy_ = std::make_unique<InputProxy>(file_);
     }
-    if (std::filesystem::is_directory(status)) throw Error(fmt::format("{}: a folder, not an image", file.string()));
-    if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, code) == 0) {
-        throw Error(fmt::format("{}: the file is empty (0 bytes); was it still being written?", file.string()));
-    }
-    if (::access(file.c_str(), R_OK) != 0) {
-        throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
-    }
-    if (std::filesystem::is_regular_file(status) && is_cut_png(file))
-        throw Error(fmt::format("{}: the PNG is truncated; was it still being written?", file.string()));
     OIIO::geterror();  // forgets messages of earlier calls
-    auto input = OIIO::ImageInput::open(file.string(), &options);
-    if (!input) throw Error(fmt::format("{}: not an image, or damaged{}", file.string(), reason(OIIO::geterror())));
-    return input;
+    input_ = OIIO::ImageInput::create(std::string(format));
+    OIIO::ImageSpec spec, with_proxy = options;
+    OIIO::Filesystem::IOProxy* const proxy = proxy_.get();
+    with_proxy.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    if (!input_ || !input_->open(name, spec, with_proxy)) {
+        const std::string why = input_ ? input_->geterror() : OIIO::geterror();
+        throw Error(fmt::format("{}: not an image, or damaged{}", name, reason(why)));
+    }
+    if (format != "openexr") check_size(spec, *file_);
 }
 
 }  // namespace wrinkle::io

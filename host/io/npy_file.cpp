@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/names.h"
 #include "base/text_file.h"
 #include "io/npy_header.h"
 #include "wrinkle/error.h"
@@ -39,10 +40,8 @@ NpyArray<T> read_npy(const std::filesystem::path& file) {
     if (header.type.empty()) throw Error(fmt::format("{} holds records; needs a plain array of numbers", name));
     const std::size_t size = header.type == "<f4" ? 4 : header.type == "<f8" ? 8 : 0;
     if (size == 0)
-        throw Error(
-            fmt::format("{} holds numbers of type \"{}\"; needs \"<f4\" or \"<f8\": "
-                        "array.astype(\"<f4\")",
-                        name, header.type));
+        throw Error(fmt::format("{} holds numbers of type {}; needs \"<f4\" or \"<f8\": array.astype(\"<f4\")", name,
+                                quote(header.type)));
     if (header.fortran_order && header.shape.size() > 1)
         throw Error(fmt::format("{} is in Fortran order; save it in C order: numpy.ascontiguousarray(array)", name));
     const std::size_t there = (text.size() - header.data) / size;

@@ -2,11 +2,51 @@
 
 #include <fmt/format.h>
 
-#include <regex>
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
 
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
+namespace {
+
+/// What follows a key of the dict, without the spaces before it. Nothing when there is no such key.
+//
+// The dict is searched by hand: std::regex recurses once a character, and a header may have 65535.
+std::optional<std::string_view> after(std::string_view dict, std::string_view key) {
+    const std::size_t at = dict.find(key);
+    if (at == std::string_view::npos) return {};
+    dict.remove_prefix(at + key.size());
+    dict.remove_prefix(std::min(dict.find_first_not_of(' '), dict.size()));
+    return dict;
+}
+
+/// The text between `open`, which it has to begin with, and the next `close`.
+std::optional<std::string_view> between(std::optional<std::string_view> text, char open, char close) {
+    if (!text || !text->starts_with(open)) return {};
+    const std::size_t end = text->find(close, 1);
+    return end == std::string_view::npos ? std::nullopt : std::optional(text->substr(1, end - 1));
+}
+
+/// The whole numbers of a tuple such as "3, 4". Nothing when there is anything else in it.
+std::optional<std::vector<std::size_t>> sides_of(std::string_view tuple) {
+    constexpr std::size_t kMostDigits = 12;
+    std::vector<std::size_t> sides;
+    while (true) {
+        tuple.remove_prefix(std::min(tuple.find_first_not_of(", "), tuple.size()));
+        if (tuple.empty()) return sides;
+        std::size_t side = 0;
+        const auto [end, error] = std::from_chars(tuple.data(), tuple.data() + tuple.size(), side);
+        const auto digits = static_cast<std::size_t>(end - tuple.data());
+        if (digits == 0 || digits > kMostDigits || error != std::errc()) return {};
+        sides.push_back(side);
+        tuple.remove_prefix(digits);
+    }
+}
+
+}  // namespace
 
 std::size_t NpyHeader::count(const std::string& name) const {
     std::size_t count = 1;
@@ -28,21 +68,19 @@ NpyHeader read_npy_header(std::string_view text, const std::string& name) {
     for (std::size_t i = 0; i < counted; ++i) length |= byte(8 + i) << (8 * i);
     NpyHeader header{.type = {}, .records = {}, .shape = {}, .data = 8 + counted + length};
     if (header.data > text.size() || length > 65535) throw fail("the .npy file is cut short or damaged");
-    const std::string dict(text.substr(8 + counted, length));
-    std::smatch type, order, shape;
-    const bool plain = std::regex_search(dict, type, std::regex("'descr': *'([^']*)'"));
-    if ((!plain && !std::regex_search(dict, type, std::regex("'descr': *\\[([^\\]]*)\\]"))) ||
-        !std::regex_search(dict, order, std::regex("'fortran_order': *(True|False)")) ||
-        !std::regex_search(dict, shape, std::regex("'shape': *\\(([0-9, ]*)\\)")))
+    const std::string_view dict = text.substr(8 + counted, length);
+    const auto description = after(dict, "'descr':"), order = after(dict, "'fortran_order':");
+    const auto type = between(description, '\'', '\''), records = between(description, '[', ']');
+    const auto shape = between(after(dict, "'shape':"), '(', ')');
+    if ((!type && !records) || !shape || !order || (!order->starts_with("True") && !order->starts_with("False")))
         throw fail("it is neither a plain array of numbers nor one of records with named fields");
-    (plain ? header.type : header.records) = type[1];
-    header.fortran_order = order[1] == "True";
-    const std::string sides = shape[1];
-    const std::regex digits("[0-9]+");
-    for (std::sregex_iterator side(sides.begin(), sides.end(), digits), end; side != end; ++side) {
-        if (side->str().size() > 12) throw fail("the .npy file is damaged: no array is that large");
-        header.shape.push_back(std::stoull(side->str()));
-    }
+    (type ? header.type : header.records) = type ? *type : *records;
+    header.fortran_order = order->starts_with("True");
+    auto sides = sides_of(*shape);
+    if (!sides) throw fail("the .npy file is damaged: no array is that large");
+    constexpr std::size_t kMostDimensions = 64;  // numpy's
+    if (sides->size() > kMostDimensions) throw fail("the .npy file is damaged: no array has so many dimensions");
+    header.shape = std::move(*sides);
     return header;
 }
 

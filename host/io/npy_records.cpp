@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <regex>
+#include <optional>
+#include <utility>
 
+#include "base/input_file.h"
+#include "base/names.h"
 #include "base/text_file.h"
 #include "io/npy_header.h"
 #include "wrinkle/error.h"
@@ -39,26 +43,72 @@ std::string unreadable(const NpyRecords::Field& field, char order) {
     return order == '>' ? "is big-endian: array.astype(array.dtype.newbyteorder(\"<\"))" : "";
 }
 
+/// Takes what a list of fields is made of off its front. (std::regex would recurse once a character.)
+class FieldList {
+public:
+    explicit FieldList(std::string_view list) : rest_(list) { skip_spaces(); }
+
+    bool empty() const { return rest_.empty(); }
+    std::string_view rest() const { return rest_; }
+    void skip_spaces() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \n\t"), rest_.size())); }
+
+    bool take(char c) {
+        if (!rest_.starts_with(c)) return false;
+        rest_.remove_prefix(1);
+        return true;
+    }
+
+    /// A text in single quotes.
+    std::optional<std::string_view> take_quoted() {
+        const std::size_t end = rest_.find('\'', 1);
+        if (!rest_.starts_with('\'') || end == std::string_view::npos) return {};
+        const std::string_view text = rest_.substr(1, end - 1);
+        rest_.remove_prefix(end + 1);
+        return text;
+    }
+
+private:
+    std::string_view rest_;
+};
+
+/// A type such as "<f4", as its field has it. Nothing for what is no such type.
+std::optional<NpyRecords::Field> field_of(std::string_view name, std::string_view type) {
+    constexpr std::size_t kMostDigits = 6;
+    if (type.size() < 3 || type.size() > 2 + kMostDigits || std::string_view("<>|=").find(type[0]) == type.npos)
+        return {};
+    const std::string_view digits = type.substr(2);
+    if (std::isalpha(static_cast<unsigned char>(type[1])) == 0 || digits.find_first_not_of("0123456789") != digits.npos)
+        return {};
+    std::size_t size = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), size);
+    return NpyRecords::Field{std::string(name), type[1], size, 0};
+}
+
 /// Reads a list such as ('x', '<f4'), ('shape', '<U6'). Fields follow one another in a record; ('', '|V4') is a gap of
 /// 4 bytes.
-std::vector<NpyRecords::Field> read_fields(const std::string& list, std::size_t& stride, const std::string& name) {
-    static const std::regex pattern(R"(\s*\('([^']*)', *'([<>|=])([a-zA-Z])([0-9]{1,6})'\),?)");
+std::vector<NpyRecords::Field> read_fields(const std::string& text, std::size_t& stride, const std::string& name) {
     std::vector<NpyRecords::Field> fields;
     stride = 0;
-    std::smatch part;
-    for (auto rest = list.begin(); std::find_if_not(rest, list.end(), [](char c) { return c == ' '; }) != list.end();) {
-        if (!std::regex_search(rest, list.end(), part, pattern, std::regex_constants::match_continuous))
-            throw Error(fmt::format("{}: cannot read its fields from \"{}\" on; each must be one number or text", name,
-                                    std::string(rest, list.end()).substr(0, 40)));
-        rest = part[0].second;
-        NpyRecords::Field field{part[1], part[3].str()[0], std::stoul(part[4]), stride};
-        if (field.kind == 'U') field.size *= kCharacter;
-        stride += field.size;
-        if (field.kind == 'V' && field.name.empty()) continue;
-        if (const std::string why = unreadable(field, part[2].str()[0]); !why.empty())
-            throw Error(fmt::format("{}: the field \"{}\" has type \"{}{}{}\", which {}", name, field.name,
-                                    part[2].str(), part[3].str(), part[4].str(), why));
-        fields.push_back(field);
+    for (FieldList list(text); !list.empty(); list.skip_spaces()) {
+        const auto from = list.rest();
+        const bool opened = list.take('(');
+        const auto field_name = opened ? list.take_quoted() : std::nullopt;
+        const bool separated = field_name && list.take(',');
+        list.skip_spaces();
+        const auto type = separated ? list.take_quoted() : std::nullopt;
+        auto field = type && list.take(')') ? field_of(*field_name, *type) : std::nullopt;
+        if (!field)
+            throw Error(fmt::format("{}: cannot read its fields from {} on; each must be one number or text", name,
+                                    quote(from.substr(0, 40))));
+        list.take(',');
+        field->offset = stride;
+        if (field->kind == 'U') field->size *= kCharacter;
+        stride += field->size;
+        if (field->kind == 'V' && field->name.empty()) continue;
+        if (const std::string why = unreadable(*field, type->front()); !why.empty())
+            throw Error(
+                fmt::format("{}: the field {} has type \"{}\", which {}", name, quote(field->name), *type, why));
+        fields.push_back(std::move(*field));
     }
     return fields;
 }
@@ -67,7 +117,7 @@ std::vector<NpyRecords::Field> read_fields(const std::string& list, std::size_t&
 
 bool NpyRecords::is(const std::filesystem::path& file) {
     std::string start(npy_magic.size(), ' ');
-    std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+    InputFile(file, "a table").read_at(0, start.data(), start.size());
     return start == npy_magic;
 }
 
@@ -76,9 +126,9 @@ NpyRecords::NpyRecords(const std::filesystem::path& file) : bytes_(read_text(fil
     const NpyHeader header = read_npy_header(bytes_, name);
     if (!header.type.empty())
         throw Error(
-            fmt::format("{} holds plain numbers (\"{}\"), whose columns have no names; needs records: "
+            fmt::format("{} holds plain numbers ({}), whose columns have no names; needs records: "
                         "numpy.lib.recfunctions.unstructured_to_structured(array, names=[\"x\", \"y\", ...])",
-                        name, header.type));
+                        name, quote(header.type)));
     if (header.shape.size() != 1)
         throw Error(fmt::format("{} has {} dimensions; a table has 1: array.ravel()", name, header.shape.size()));
     fields_ = read_fields(header.records, stride_, name);

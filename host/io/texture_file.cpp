@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "base/only_errors.h"
 #include "io/image_open.h"
 #include "io/reason.h"
 #include "io/texture_texels.h"
@@ -31,20 +32,24 @@ Image read_texels(OIIO::ImageInput& input, int channels, const std::filesystem::
 TexelSource open_flat(const std::filesystem::path& file) {
     OIIO::ImageSpec options;
     options.attribute("oiio:UnassociatedAlpha", 1);  // else heights of transparent texels would be multiplied by 0
-    const std::shared_ptr<OIIO::ImageInput> input = io::open_image(file, options);
-    const auto& spec = input->spec();
+    const auto image = std::make_shared<const io::OpenImage>(file, options);
+    const auto& spec = image->input().spec();
     if (spec.deep || spec.depth > 1) throw Error(fmt::format("{}: not a flat image", file.string()));
-    return {spec, file.string(), [input, file](int channels) { return read_texels(*input, channels, file); }};
+    return {spec, file.string(), [image, file](int channels) { return read_texels(image->input(), channels, file); }};
 }
 
 }  // namespace
 
-Image load_texture(const std::filesystem::path& file, ImageUse use) { return texture_of(open_flat(file), use); }
-
-Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUnit unit) {
-    return slopes_of(open_flat(file), encoding, unit);
+Image load_texture(const std::filesystem::path& file, ImageUse use) {
+    return only_errors(file.c_str(), [&] { return texture_of(open_flat(file), use); });
 }
 
-Image load_bump(const TextureUse& use) { return bump_of(open_flat(use.file), use); }
+Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUnit unit) {
+    return only_errors(file.c_str(), [&] { return slopes_of(open_flat(file), encoding, unit); });
+}
+
+Image load_bump(const TextureUse& use) {
+    return only_errors(use.file.c_str(), [&] { return bump_of(open_flat(use.file), use); });
+}
 
 }  // namespace wrinkle

@@ -24,7 +24,8 @@ namespace wrinkle::io {
 
 namespace {
 
-namespace fs = std::filesystem;
+/// A name that opens what is open already, whatever has taken the file's own name since.
+std::string name_of_open(const InputFile& file) { return "/proc/self/fd/" + std::to_string(file.descriptor()); }
 
 template <class T>
 using GridOf = openvdb::Grid<typename openvdb::tree::Tree4<T, 5, 4, 3>::Type>;
@@ -113,8 +114,8 @@ openvdb::GridBase::Ptr make_grid(const DenseVolume& volume) {
 /// on with sizes that are not there.
 class Contents : public openvdb::io::Archive {
 public:
-    static bool complete(const fs::path& file) {
-        std::ifstream in(file, std::ios::binary);
+    static bool complete(const InputFile& file) {
+        std::ifstream in(name_of_open(file), std::ios::binary);
         in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
         try {
             Contents contents;
@@ -122,7 +123,7 @@ public:
             contents.setFormatVersion(in);
             openvdb::MetaMap().readMeta(in);
             if (!contents.inputHasGridOffsets()) return true;
-            const auto size = static_cast<std::int64_t>(fs::file_size(file));
+            const auto size = static_cast<std::int64_t>(file.size());
             for (auto left = readGridCount(in); left > 0; --left) {
                 openvdb::io::GridDescriptor grid;
                 grid.read(in);
@@ -145,10 +146,10 @@ public:
 
 std::uint32_t newest_vdb() { return openvdb::OPENVDB_FILE_VERSION; }
 
-std::vector<ListedGrid> list_vdb(const fs::path& file) {
+std::vector<ListedGrid> list_vdb(const InputFile& file) {
     openvdb::initialize();
     if (!Contents::complete(file)) OPENVDB_THROW(openvdb::IoError, "it ends before its grids do");
-    openvdb::io::File in(file.string());
+    openvdb::io::File in(name_of_open(file));
     in.open(false);
     std::vector<ListedGrid> grids;
     for (auto name = in.beginName(); name != in.endName(); ++name) {
@@ -158,9 +159,9 @@ std::vector<ListedGrid> list_vdb(const fs::path& file) {
     return grids;
 }
 
-RawVolume read_vdb(const fs::path& file, const std::string& name, bool voxels) {
+RawVolume read_vdb(const InputFile& file, const std::string& name, bool voxels) {
     openvdb::initialize();
-    openvdb::io::File in(file.string());
+    openvdb::io::File in(name_of_open(file));
     in.open(false);  // false: voxels are read now, not when they are first used
     const openvdb::GridBase::Ptr grid = voxels ? in.readGrid(name) : in.readGridMetadata(name);
     RawVolume raw;

@@ -25,6 +25,9 @@ struct VolumeInfo {
 struct Volume {
     static constexpr int edge = 8;
     static constexpr std::size_t block_voxels = edge * edge * edge;
+    /// Blocks of background that devices store around the box: the first on each side holds voxels of the grid at its
+    /// border, the second is background alone.
+    static constexpr int ring = 2;
 
     VolumeInfo info;
     std::array<int, 3> first{}, count{};  ///< the box: its first block, and how many along each axis

@@ -8,12 +8,16 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <limits>
 #include <new>
 
 #include "base/atomic_file.h"
+#include "base/claim.h"
+#include "base/input_file.h"
+#include "base/limits.h"
 #include "base/names.h"
 #include "io/reason.h"
+#include "io/volume_child.h"
 #include "io/volume_grid.h"
 #include "wrinkle/error.h"
 
@@ -26,6 +30,11 @@ using io::ListedGrid, io::RawVolume;
 
 constexpr std::uint64_t kVdbMagic = 0x56444220, kNvdbMagic = 0x304244566f6e614eull;  // " BDV", "NanoVDB0"
 constexpr double kMostBlocks = 1 << 28;                                              // their index then takes 1 GiB
+constexpr double kMostAlongAnAxis = (1 << 24) / 8;  // kernels count voxels from the first in float
+constexpr int kFarthest = (1 << 27) - 1;            // block from the origin: voxels stay within int, with ring
+/// Bytes of index that a byte of file may ask for. Leaves take kilobytes of a file and an entry of the index, tiles
+/// nearly nothing and up to 2^27 entries; but a grid that is nearly all tiles is a small one.
+constexpr double kIndexExpansion = 1000;
 
 std::string list(const std::vector<ListedGrid>& grids) {
     std::string text;
@@ -59,27 +68,23 @@ std::size_t choose(const fs::path& file, const std::vector<ListedGrid>& grids, c
 }
 
 /// True for NanoVDB, false for OpenVDB. Throws Error when the file is neither, or of a version that cannot be read.
-bool is_nano(const fs::path& file) {
-    std::error_code error;
-    if (fs::is_directory(file, error))
-        throw Error(fmt::format("{}: is a folder; a volume file was expected", file.string()));
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(fmt::format("{}: cannot be opened; is it there, and may it be read?", file.string()));
-    std::uint64_t magic = 0;
-    std::uint32_t version = 0;
-    in.read(reinterpret_cast<char*>(&magic), sizeof magic);
-    in.read(reinterpret_cast<char*>(&version), sizeof version);
-    const bool nano = magic == kNvdbMagic;
-    if (!in || (!nano && magic != kVdbMagic))
-        throw Error(fmt::format("{}: is neither an OpenVDB (.vdb) nor a NanoVDB (.nvdb) file", file.string()));
-    if (!nano && version > io::newest_vdb())
+bool is_nano(const InputFile& file) {
+    struct {
+        std::uint64_t magic = 0;
+        std::uint32_t version = 0, rest = 0;
+    } head;
+    const bool whole = file.read_at(0, &head, sizeof head) == sizeof head;
+    const bool nano = head.magic == kNvdbMagic;
+    if (!whole || (!nano && head.magic != kVdbMagic))
+        throw Error(fmt::format("{}: is neither an OpenVDB (.vdb) nor a NanoVDB (.nvdb) file", file.name()));
+    if (!nano && head.version > io::newest_vdb())
         throw Error(
             fmt::format("{}: has OpenVDB file version {}; versions up to {} can be read: save it with an older "
                         "OpenVDB",
-                        file.string(), version, io::newest_vdb()));
-    if (nano && version >> 21 != io::nvdb_version())
+                        file.name(), head.version, io::newest_vdb()));
+    if (nano && head.version >> 21 != io::nvdb_version())
         throw Error(fmt::format("{}: has NanoVDB version {}; version {} can be read: convert it, or save a .vdb",
-                                file.string(), version >> 21, io::nvdb_version()));
+                                file.name(), head.version >> 21, io::nvdb_version()));
     return nano;
 }
 
@@ -104,15 +109,10 @@ auto told(const fs::path& file, const char* what, const Work& work) {
     }
 }
 
-/// Reads the grid `wanted`, or the only one. Gives the grid and its name.
-std::pair<RawVolume, std::string> read_grid(const fs::path& file, const std::string& wanted, bool voxels) {
-    const bool nano = is_nano(file);
-    return told(file, "{}: cannot be read{}; it may be truncated or damaged", [&] {
-        const std::vector<ListedGrid> grids = nano ? io::list_nvdb(file) : io::list_vdb(file);
-        const std::size_t chosen = choose(file, grids, wanted);
-        return std::pair(nano ? io::read_nvdb(file, chosen) : io::read_vdb(file, grids[chosen].name, voxels),
-                         grids[chosen].name);
-    });
+/// OpenVDB files by another process, where that is wanted.
+std::pair<RawVolume, std::string> read_wherever(const InputFile& file, const std::string& wanted, bool voxels) {
+    const bool elsewhere = !limits().volume_reader.empty() && !is_nano(file);
+    return elsewhere ? io::read_grid_in_child(file, wanted, voxels) : io::read_grid(file, wanted, voxels);
 }
 
 VolumeInfo info_of(const fs::path& file, const std::string& name, const RawVolume& raw) {
@@ -126,31 +126,64 @@ VolumeInfo info_of(const fs::path& file, const std::string& name, const RawVolum
 
 bool finite(const std::array<float, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
-/// Sorts leaves and tiles into the box of blocks. Throws Error when the grid is empty, too large or not finite.
-Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
-    const auto fail = [&](const std::string& text) {
-        return Error(fmt::format("{}: the grid {} {}", file.string(), quote(info.grid), text));
-    };
-    if (raw.leaves.empty() && raw.tiles.empty()) throw fail("is empty: it holds its background and nothing else");
-    if (!finite(raw.background)) throw fail("has a background that is not finite");
+struct BlockBox {
     std::array<int, 3> low, high;
-    low.fill(std::numeric_limits<int>::max()), high.fill(std::numeric_limits<int>::min());
+    double blocks = 1;  ///< in it
+};
+
+/// The box of blocks around leaves and tiles. Throws what `fail` makes of the reason when no device could index it.
+template <class Fail>
+BlockBox box_of(const InputFile& file, const RawVolume& raw, const Fail& fail) {
+    BlockBox box;
+    box.low.fill(std::numeric_limits<int>::max()), box.high.fill(std::numeric_limits<int>::min());
     const auto expand = [&](const std::array<int, 3>& at) {
-        for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k]);
+        for (std::size_t k = 0; k < 3; ++k)
+            box.low[k] = std::min(box.low[k], at[k]), box.high[k] = std::max(box.high[k], at[k]);
     };
     for (const auto& leaf : raw.leaves) expand(leaf);
     for (const RawVolume::Tile& tile : raw.tiles) expand(tile.first), expand(tile.last);
-    double blocks = 1;
+    double with_ring = 1;
     std::array<double, 3> extent{};
-    for (std::size_t k = 0; k < 3; ++k) blocks *= extent[k] = 1.0 + high[k] - low[k];
-    if (blocks > kMostBlocks)
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.blocks *= extent[k] = 1.0 + box.high[k] - box.low[k];
+        with_ring *= extent[k] + 2 * Volume::ring;
+    }
+    const auto size = [&] {
+        return fmt::format("spans {:.0f} x {:.0f} x {:.0f} voxels", Volume::edge * extent[0], Volume::edge * extent[1],
+                           Volume::edge * extent[2]);
+    };
+    if (with_ring > kMostBlocks || std::ranges::max(extent) + 2 * Volume::ring > kMostAlongAnAxis)
         throw fail(
-            fmt::format("spans {:.0f} x {:.0f} x {:.0f} voxels, {:.3g} blocks of 8 x 8 x 8; {:.3g} fit: crop or "
-                        "resample it",
-                        8 * extent[0], 8 * extent[1], 8 * extent[2], blocks, kMostBlocks));
+            fmt::format("{}, {:.3g} blocks of 8 x 8 x 8; {:.3g} fit, and {:.0f} along an axis: crop or resample it",
+                        size(), with_ring, kMostBlocks, kMostAlongAnAxis));
+    for (std::size_t k = 0; k < 3; ++k)
+        if (box.low[k] < -kFarthest || box.high[k] > kFarthest)
+            throw fail(
+                fmt::format("reaches from voxel {} to {} along axis {}; indices go up to {}: move it to the origin",
+                            8.0 * box.low[k], 8.0 * box.high[k] + 7, k, 8LL * kFarthest));
+    check_claim(file.name(), {fmt::format("a grid that {}", size()), with_ring * sizeof(std::int32_t), file.size(),
+                              kIndexExpansion});
+    return box;
+}
+
+/// Sorts leaves and tiles into the box of blocks. Throws Error when the grid is empty, too large or not finite.
+Volume assemble(const InputFile& file, RawVolume raw, VolumeInfo info) {
+    const auto fail = [&](const std::string& text) {
+        return Error(fmt::format("{}: the grid {} {}", file.name(), quote(info.grid), text));
+    };
+    if (raw.leaves.empty() && raw.tiles.empty()) throw fail("is empty: it holds its background and nothing else");
+    if (!finite(raw.background)) throw fail("has a background that is not finite");
+    const auto [low, high, blocks] = box_of(file, raw, fail);
+    double filled = static_cast<double>(raw.leaves.size());
+    for (const RawVolume::Tile& tile : raw.tiles) {
+        double size = 1;
+        for (std::size_t k = 0; k < 3; ++k) size *= 1.0 + tile.last[k] - tile.first[k];
+        filled += size;
+    }
+    if (filled > blocks) throw fail("holds regions that overlap; the file is damaged");
 
     Volume out;
-    out.info = std::move(info);
+    out.info = info;
     out.first = low;
     for (std::size_t k = 0; k < 3; ++k) out.count[k] = high[k] - low[k] + 1;
     out.blocks.assign(static_cast<std::size_t>(blocks), -1);
@@ -180,14 +213,25 @@ Volume assemble(const fs::path& file, RawVolume raw, VolumeInfo info) {
 
 }  // namespace
 
+std::pair<RawVolume, std::string> io::read_grid(const InputFile& file, const std::string& wanted, bool voxels) {
+    const bool nano = is_nano(file);
+    return told(file.path(), "{}: cannot be read{}; it may be truncated or damaged", [&] {
+        const std::vector<ListedGrid> grids = nano ? io::list_nvdb(file) : io::list_vdb(file);
+        const std::size_t chosen = choose(file.path(), grids, wanted);
+        return std::pair(nano ? io::read_nvdb(file, chosen) : io::read_vdb(file, grids[chosen].name, voxels),
+                         grids[chosen].name);
+    });
+}
+
 Volume load_volume(const fs::path& file, const std::string& grid) {
-    auto [raw, name] = read_grid(file, grid, true);
+    const InputFile opened(file, "a volume file");
+    auto [raw, name] = read_wherever(opened, grid, true);
     VolumeInfo info = info_of(file, name, raw);
-    return told(file, "{}: cannot be used{}", [&] { return assemble(file, std::move(raw), std::move(info)); });
+    return told(file, "{}: cannot be used{}", [&] { return assemble(opened, std::move(raw), std::move(info)); });
 }
 
 VolumeInfo volume_info(const fs::path& file, const std::string& grid) {
-    const auto [raw, name] = read_grid(file, grid, false);
+    const auto [raw, name] = read_wherever(InputFile(file, "a volume file"), grid, false);
     return info_of(file, name, raw);
 }
 

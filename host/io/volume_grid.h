@@ -1,7 +1,9 @@
 #pragma once
 
 #include <iosfwd>
+#include <utility>
 
+#include "base/input_file.h"
 #include "io/volume_file.h"
 
 /// What volume_file.cpp shares with the readers and writers of the two volume formats.
@@ -51,16 +53,20 @@ void add_leaf(RawVolume& raw, const Leaf& leaf) {
     }
 }
 
-std::vector<ListedGrid> list_vdb(const std::filesystem::path& file);
+/// Reads the grid `wanted`, or the only one, of a file of either format, in this process. Gives the grid and its name.
+/// Throws Error.
+std::pair<RawVolume, std::string> read_grid(const InputFile& file, const std::string& wanted, bool voxels);
+
+std::vector<ListedGrid> list_vdb(const InputFile& file);
 /// With `voxels` false, only the transform and the type are read.
-RawVolume read_vdb(const std::filesystem::path& file, const std::string& grid, bool voxels);
+RawVolume read_vdb(const InputFile& file, const std::string& grid, bool voxels);
 /// `out` must throw when it cannot be written to.
 void write_vdb(std::ostream& out, const DenseVolume& volume);
 /// The newest version of OpenVDB files that can be read.
 std::uint32_t newest_vdb();
 
-std::vector<ListedGrid> list_nvdb(const std::filesystem::path& file);
-RawVolume read_nvdb(const std::filesystem::path& file, std::size_t number);
+std::vector<ListedGrid> list_nvdb(const InputFile& file);
+RawVolume read_nvdb(const InputFile& file, std::size_t number);
 /// As write_vdb, but vectors cannot be written.
 void write_nvdb(std::ostream& out, const DenseVolume& volume);
 /// The major version of NanoVDB files that can be read.

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "wrinkle/error.h"
+
 namespace wrinkle::io {
 namespace {
 
@@ -22,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, "EXR stores numbers so
 
 struct StoredChannel {
     std::string name;
-    bool half = false;
+    bool half = false, whole_numbers = false;
     std::size_t row_bytes = 0;
 };
 
@@ -32,8 +34,16 @@ struct StoredPart {
     std::vector<StoredChannel> channels;  ///< in the order in which a row stores them
 };
 
-/// The channels of a part. Nothing when the part is not stored as ZIP scanlines with one sample a pixel.
-std::optional<StoredPart> list(exr_const_context_t file, int part) {
+/// Rows that a block of a ZIP compression holds. The library's own answer is 0 where a scanline file has an attribute
+/// "tiles", so it is only compared.
+int rows_a_block(exr_compression_t compression) {
+    constexpr int kZipRows = 16;
+    return compression == EXR_COMPRESSION_ZIP ? kZipRows : 1;
+}
+
+/// The channels of a part. Nothing when the part is not stored as ZIP scanlines with one sample a pixel, or is not what
+/// `expected` says.
+std::optional<StoredPart> list(exr_const_context_t file, int part, const Part& expected) {
     exr_storage_t storage{};
     exr_compression_t compression{};
     exr_attr_box2i_t window{};
@@ -46,13 +56,21 @@ std::optional<StoredPart> list(exr_const_context_t file, int part) {
         exr_get_scanlines_per_chunk(file, part, &result.block_rows) != EXR_ERR_SUCCESS ||
         exr_get_channels(file, part, &channels) != EXR_ERR_SUCCESS)
         return {};
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
+                       height = std::int64_t{window.max.y} - window.min.y + 1;
+    if (result.block_rows != rows_a_block(compression) || expected.tile_height != 0 ||
+        window.min.x != expected.origin_x || window.min.y != expected.origin_y || width != expected.width ||
+        height != expected.height || width < 1 || height < 1)
+        return {};
     result.top = window.min.y;
-    result.height = window.max.y - window.min.y + 1;
-    result.width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
+    result.height = expected.height;
+    result.width = static_cast<std::size_t>(width);
     for (const auto& channel : std::span(channels->entries, static_cast<std::size_t>(channels->num_channels))) {
         if (channel.x_sampling != 1 || channel.y_sampling != 1) return {};
         const bool half = channel.pixel_type == EXR_PIXEL_HALF;
-        result.channels.push_back({channel.name.str, half, result.width * (half ? 2 : 4)});
+        if (!half && channel.pixel_type != EXR_PIXEL_FLOAT && channel.pixel_type != EXR_PIXEL_UINT) return {};
+        result.channels.push_back(
+            {channel.name.str, half, channel.pixel_type == EXR_PIXEL_UINT, result.width * (half ? 2 : 4)});
         result.row_bytes += result.channels.back().row_bytes;
     }
     return result;
@@ -120,6 +138,7 @@ void convert(const std::uint8_t* row, const StoredPart& part, bool half, float* 
 }  // namespace
 
 struct ZipBlocks::Impl {
+    explicit Impl(std::shared_ptr<const InputFile> opened) : bytes(std::move(opened)) {}
     ~Impl() {
         if (file != nullptr) exr_finish(&file);
     }
@@ -176,20 +195,34 @@ struct ZipBlocks::Impl {
         return true;
     }
 
+    std::shared_ptr<const InputFile> bytes;
     exr_context_t file = nullptr;
     std::vector<std::optional<StoredPart>> parts;
     std::mutex mutex;
     std::vector<std::unique_ptr<Workspace>> idle;
 };
 
-ZipBlocks::ZipBlocks(const std::filesystem::path& file) : impl_(std::make_unique<Impl>()) {
+ZipBlocks::ZipBlocks(std::shared_ptr<const InputFile> file, std::span<const Part> parts)
+    : impl_(std::make_unique<Impl>(std::move(file))) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
     how.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-    if (exr_start_read(&impl_->file, file.c_str(), &how) != EXR_ERR_SUCCESS) return;
-    int parts = 0;
-    exr_get_count(impl_->file, &parts);
-    for (int part = 0; part < parts; ++part) impl_->parts.push_back(list(impl_->file, part));
+    how.user_data = const_cast<InputFile*>(impl_->bytes.get());
+    how.size_fn = [](exr_const_context_t, void* from) {
+        return static_cast<std::int64_t>(static_cast<const InputFile*>(from)->size());
+    };
+    how.read_fn = [](exr_const_context_t, void* from, void* to, std::uint64_t size, std::uint64_t offset,
+                     exr_stream_error_func_ptr_t) -> std::int64_t {
+        try {
+            return static_cast<std::int64_t>(static_cast<const InputFile*>(from)->read_at(offset, to, size));
+        } catch (const Error&) { return -1; }  // no exception may pass through a library in C
+    };
+    if (exr_start_read(&impl_->file, impl_->bytes->path().c_str(), &how) != EXR_ERR_SUCCESS) return;
+    int count = 0;
+    exr_get_count(impl_->file, &count);
+    if (static_cast<std::size_t>(count) != parts.size()) return;
+    for (int part = 0; part < count; ++part)
+        impl_->parts.push_back(list(impl_->file, part, parts[static_cast<std::size_t>(part)]));
 }
 
 ZipBlocks::~ZipBlocks() = default;
@@ -198,12 +231,16 @@ bool ZipBlocks::read(int part, std::span<const BlockChannel> channels, int y_beg
     if (static_cast<std::size_t>(part) >= impl_->parts.size() || !impl_->parts[static_cast<std::size_t>(part)])
         return false;
     const StoredPart& stored = *impl_->parts[static_cast<std::size_t>(part)];
+    if (y_begin < 0 || y_begin >= y_end || y_end > stored.height) return false;
     if (y_begin % stored.block_rows != 0 || (y_end % stored.block_rows != 0 && y_end != stored.height)) return false;
     std::vector<float*> out(stored.channels.size());
     for (const auto& channel : channels) {
         const auto found = std::ranges::find(stored.channels, channel.name, &StoredChannel::name);
-        if (found == stored.channels.end()) return false;
-        out[static_cast<std::size_t>(found - stored.channels.begin())] = channel.out;
+        const std::size_t pixels = stored.width * static_cast<std::size_t>(y_end - y_begin);
+        if (found == stored.channels.end() || found->half != channel.half ||
+            found->whole_numbers != channel.whole_numbers || channel.out.size() < (pixels - 1) * stride + 1)
+            return false;
+        out[static_cast<std::size_t>(found - stored.channels.begin())] = channel.out.data();
     }
     const int blocks = (y_end - y_begin + stored.block_rows - 1) / stored.block_rows;
     std::atomic<int> good = 0;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/limits.h"
 #include "base/text_file.h"
 #include "layers/common.h"
 #include "wrinkle/error.h"
@@ -79,6 +80,8 @@ bool defines(const std::string& text, const std::string& name) {
 /// The user's file, once, with the structure of each function's parameters before it. A compiler's messages are told by
 /// the file's own name and lines.
 void add_source(LayerText& at, const KernelLayer& l) {
+    if (!limits().sandbox.empty())
+        throw Error(at.who + ": a kernel is native code on a CPU, which a sandbox cannot hold: it is not run here");
     const std::string file = l.file.string();
     const std::string text = read_text(l.file, "a kernel source");
     if (!defines(text, l.function))

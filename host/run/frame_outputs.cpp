@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "base/names.h"
+#include "base/same_file.h"
+#include "layers/kinds.h"
+#include "scene/check_scene.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -39,6 +42,21 @@ Metadata provenance(const Scene& scene, const GBufferReader& reader, bool passth
 }
 
 }  // namespace
+
+void check_outputs(const Scene& scene, const GBufferReader& reader, const fs::path& directory,
+                   std::optional<int> frame) {
+    std::vector<fs::path> inputs = scene::files_of(layer_kinds(), scene);
+    inputs.push_back(reader.path());
+    const auto check = [&](const char* stem, const char* extension) {
+        refuse_to_replace(directory / file_name(stem, extension, frame), inputs);
+    };
+    const Relight relight = scene.lighting.relight;
+    check("normal", "exr");
+    if (scene.output.png) check("normal", "png");
+    if (relight != Relight::off) check("lit", "exr");
+    if (relight != Relight::off && scene.output.png) check("lit", "png");
+    if (relight == Relight::ratio && scene.output.png) check("before", "png");
+}
 
 FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
                            const fs::path& directory, std::optional<int> frame) {

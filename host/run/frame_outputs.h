@@ -12,6 +12,10 @@
 
 namespace wrinkle {
 
+/// Throws Error when a picture would replace a file that the scene is made of. To be asked before anything runs.
+void check_outputs(const Scene& scene, const GBufferReader& reader, const std::filesystem::path& directory,
+                   std::optional<int> frame);
+
 /// The files that one frame becomes: normal.exr (with what else the scene wants), normal.png, lit.exr, lit.png, and
 /// before.png where a picture is relit; a frame number goes before the extension. Nothing is seen under these names
 /// before finish().

@@ -32,6 +32,12 @@ std::vector<Structure> structure_of(LayerKinds kinds, const Scene& scene) {
     return visit(kinds, scene, false).structure;
 }
 
+std::vector<std::filesystem::path> files_of(LayerKinds kinds, const Scene& scene) {
+    std::vector<std::filesystem::path> files{scene.file, scene.gbuffer.file, scene.camera.file};
+    for (const Structure& value : structure_of(kinds, scene)) files.emplace_back(value.value);
+    return files;
+}
+
 void require_same_structure(const std::vector<Structure>& made, const std::vector<Structure>& wanted) {
     const auto same = [](const Structure& a, const Structure& b) { return a.key == b.key && a.value == b.value; };
     const auto [before, now] = std::ranges::mismatch(made, wanted, same);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.h"
+#include "base/limits.h"
 #include "base/only_errors.h"
 #include "base/text_file.h"
 #include "io/csv_rows.h"
@@ -15,6 +16,12 @@
 namespace wrinkle {
 namespace scene {
 namespace {
+
+/// Asks for the memory of all rows before the first of them takes any.
+void check_rows(const std::filesystem::path& file, std::size_t rows) {
+    constexpr double kBytesARow = 1300;  // measured: a row, what kernels get of it, and the bins that it lies in
+    check_memory(file.string(), kBytesARow * static_cast<double>(rows), fmt::format("a table of {} decals", rows));
+}
 
 std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t textures) {
     DecalReader reader(file.string(), textures, DecalReader::Form::csv);
@@ -32,7 +39,9 @@ std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t t
             reader.end_row();
         }
     };
-    io::read_csv_rows(read_text(file, "a table of decals"), file.string(), io::CsvComments::lines, take);
+    const std::string text = read_text(file, "a table of decals");
+    check_rows(file, static_cast<std::size_t>(std::ranges::count(text, '\n')));
+    io::read_csv_rows(text, file.string(), io::CsvComments::lines, take);
     if (reader.header().empty())
         reader.complain_of_file(0, "holds no table; its first line names the columns, at least x,y,z");
     return reader.finish();
@@ -40,6 +49,7 @@ std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t t
 
 std::vector<Projector> load_npy(const std::filesystem::path& file, std::size_t textures) {
     const io::NpyRecords records(file);
+    check_rows(file, records.rows());
     DecalReader reader(file.string(), textures, DecalReader::Form::npy);
     std::vector<std::string> names;
     for (const io::NpyRecords::Field& field : records.fields()) names.push_back(field.name);

@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "base/limits.h"
 #include "io/frame_path.h"
 
 namespace wrinkle::scene {
@@ -11,6 +12,7 @@ namespace fs = std::filesystem;
 
 std::string why_not_readable(const fs::path& file, bool pattern, const char* from) {
     std::error_code error;
+    if (!may_be_allowed(file)) return "it lies outside of the folder that files may be read from";
     const fs::file_status status = fs::status(file, error);
     if (fs::is_directory(status)) return fmt::format("{} is a folder, not a file", file.string());
     if (fs::exists(status)) return {};

@@ -58,7 +58,8 @@ void require_table(Table& root, const char* key, const char* example) {
 }  // namespace
 
 toml::table parse_scene_file(const std::filesystem::path& file) {
-    const std::string text = read_text(file, "a scene file"), name = file.string();
+    const std::string text = file == "-" ? read_standard_input() : read_text(file, "a scene file"),
+                      name = file == "-" ? "standard input" : file.string();
     if (text.find('\0') != std::string::npos)
         throw Error(
             fmt::format("{}: is no text, so no scene (TOML); if it is an image, \"wrinkle info\" tells what it "
@@ -85,7 +86,7 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out) {
 
 Scene load_scene(LayerKinds kinds, const std::filesystem::path& file) {
     const toml::table values = parse_scene_file(file);
-    Document document{file.parent_path(), true, Problems(file.string())};
+    Document document{file.parent_path(), true, Problems(file == "-" ? "standard input" : file.string())};
     Table root(document, values, "the scene", 1);
     Scene out;
     out.file = file;

@@ -70,9 +70,9 @@ void Table::note(std::string_view key, std::string value) {
 
 std::uint32_t Table::line_of(std::string_view key) const {
     if (visits()) return line_;
-    for (const auto& [name, value] : *values_)
-        if (name.str() == key && name.source().begin.line > 0) return name.source().begin.line;
-    return line_;
+    const auto found = values_->find(key);
+    const bool has_line = found != values_->cend() && found->first.source().begin.line > 0;
+    return has_line ? found->first.source().begin.line : line_;
 }
 
 std::vector<std::string> Table::keys() const {
@@ -299,7 +299,7 @@ void Table::finish(const std::function<std::string(const std::string& key)>& exp
             complain(key, better);
             continue;
         }
-        const std::string near = did_you_mean(key, known_);
+        const std::string near = document_->problems.enough() ? "" : did_you_mean(key, known_);
         document_->problems.add(line_of(key), fmt::format("unknown key {} in {}{} known keys: {}", quote(key), where_,
                                                           near.empty() ? ";" : near, fmt::join(known_, ", ")));
     }

@@ -3,12 +3,72 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "base/names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::scene {
+namespace {
+
+/// Finds the first key of more parts than any scene has, a.b.c. toml++ makes a table of each part, and takes them apart
+/// again by recursion, which a key of a million parts ends with a stack overflow. Nested brackets it limits itself.
+class LongKey {
+public:
+    explicit LongKey(std::string_view text) : text_(text) {}
+
+    /// The line of it, counted from 0; nothing when there is none.
+    std::optional<std::uint32_t> line() {
+        int parts = 1;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '"' || c == '\'') {
+                skip_string(c);
+                continue;
+            }
+            if (c == '#') skip_to('\n');
+            if (c == '.' && ++parts > kMostParts) return line_;
+            if (std::string_view("=,[]{}\n#").find(c) != std::string_view::npos) parts = 1;
+            next();
+        }
+        return {};
+    }
+
+private:
+    static constexpr int kMostParts = 16;
+
+    void next() {
+        if (at_ < text_.size() && text_[at_++] == '\n') ++line_;
+    }
+    void skip_to(char c) {
+        while (at_ < text_.size() && text_[at_] != c) next();
+    }
+
+    /// Moves behind a text in quotes: one, or three, within which lines may end.
+    void skip_string(char quote) {
+        const std::string three(3, quote);
+        const bool long_text = text_.substr(at_).starts_with(three);
+        for (int i = long_text ? 3 : 1; i > 0; --i) next();
+        while (at_ < text_.size()) {
+            if (quote == '"' && text_[at_] == '\\')
+                next();
+            else if (long_text ? text_.substr(at_).starts_with(three) : text_[at_] == quote || text_[at_] == '\n')
+                break;
+            next();
+        }
+        for (int i = long_text ? 3 : 1; i > 0; --i) next();
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::uint32_t line_ = 0;
+};
+
+}  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& name, std::uint32_t first_line) {
+    if (const auto line = LongKey(text).line())
+        throw Error(fmt::format("{}:{}: not a scene: a key of more than 16 parts (a.b.c)", name, *line + first_line));
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {

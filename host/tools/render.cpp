@@ -86,6 +86,9 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
                                                                camera.origin, camera.residual->median)
                                                  : fmt::format("{}; no positions to check it against", camera.origin));
         const Frame frame = frame_of(scene, reader, camera);
+        std::optional<int> number;
+        if (!options.frames.empty()) number = frames[f];
+        check_outputs(scene, reader, options.directory, number);
         matches.begin(frame);
         if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
             kept.emplace(clock.measure(PhaseClock::build, [&] {
@@ -99,8 +102,6 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
             condition_for = frame;
             condition->set_camera(frame.camera);
         }
-        std::optional<int> number;
-        if (!options.frames.empty()) number = frames[f];
         const auto evaluated = [&](const PassOptions& how, FrameOutputs* outputs) {
             Pass& pass = passes.get(frame, how);
             FrameRun run(pass.impl(), reader, clock);

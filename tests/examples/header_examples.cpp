@@ -13,6 +13,7 @@
 #include "wrinkle/gbuffer.h"
 #include "wrinkle/layers.h"
 #include "wrinkle/lighting.h"
+#include "wrinkle/limits.h"
 #include "wrinkle/noise_layer.h"
 #include "wrinkle/passes.h"
 #include "wrinkle/resources.h"
@@ -25,6 +26,11 @@ TEST(HeaderExample, Error) {
         wrinkle::load_scene("missing.toml");
     } catch (const wrinkle::Error& error) { std::cerr << error.what() << '\n'; }
     EXPECT_NE(testing::internal::GetCapturedStderr().find("missing.toml"), std::string::npos);
+}
+
+TEST(HeaderExample, Limits) {
+    wrinkle::set_limits({.memory = std::uint64_t{8} << 30, .sandbox = {}, .volume_reader = {}});
+    EXPECT_THROW(wrinkle::set_limits({.memory = 0, .sandbox = "/nowhere", .volume_reader = {}}), wrinkle::Error);
 }
 
 TEST(HeaderExample, Camera) {

@@ -211,7 +211,7 @@ TEST(GBufferReader, SaysWhichRoleHasNoChannels) {
 
 TEST(GBufferReader, RefusesFilesThatAreNoFrames) {
     TempFolder folder;
-    expect_mentions(error_of([&] { GBufferReader(folder / "none.exr"); }), {"none.exr: no such file"});
+    expect_mentions(error_of([&] { GBufferReader(folder / "none.exr"); }), {"none.exr: there is no such file"});
     expect_mentions(error_of([&] { GBufferReader(folder / "."); }), {"a folder"});
     write_text(folder / "empty.exr", "");
     expect_mentions(error_of([&] { GBufferReader(folder / "empty.exr"); }), {"empty.exr: the file is empty"});

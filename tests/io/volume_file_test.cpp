@@ -179,7 +179,7 @@ TEST(VolumeFile, WhatIsNoVolumeIsRefused) {
     write_bytes(folder / "empty.vdb", "");
     expect_refused(refusal(folder / "text.vdb"), {"text.vdb", "neither an OpenVDB (.vdb) nor a NanoVDB (.nvdb) file"});
     expect_refused(refusal(folder / "empty.vdb"), {"neither an OpenVDB"});
-    expect_refused(refusal(folder / "none.vdb"), {"none.vdb", "cannot be opened"});
+    expect_refused(refusal(folder / "none.vdb"), {"none.vdb: there is no such file"});
     expect_refused(refusal(folder / "."), {"is a folder"});
 }
 

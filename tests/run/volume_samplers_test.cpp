@@ -4,6 +4,7 @@
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tree/Tree.h>
 
+#include <limits>
 #include <random>
 
 #include "io/volume_file.h"
@@ -74,6 +75,43 @@ TEST(VolumeSamplers, TrilinearValueAndGradientAreThoseOfOpenVDB) {
     EXPECT_GT(gradients.size(), count / 2);
     expect_within("trilinear value, to OpenVDB's", Spread(values), {1e-7, 1e-6, 1e-5}, "relative");
     expect_within("trilinear gradient, to OpenVDB's", Spread(gradients), {3e-7, 2e-6, 1e-5}, "relative");
+}
+
+/// From 2^24 on not every index is a float: voxels of 1 mm are that far out at 17 km. What lies beside the box is its
+/// background, on both sides of it, and nothing is read outside of the buffer (seen by sanitizers, and by a crash).
+TEST(VolumeSamplers, ReadGridsFarFromTheOrigin) {
+    for (const int far : {1 << 24, 1 << 28, -(1 << 28), (1 << 29) + 24, 64 - (1 << 30)}) {
+        DenseVolume volume = random_box();
+        volume.first = {far, far, far}, volume.background = 3;
+        const TempVolume file(volume);
+        const Volume grid = load_volume(file.file, "");
+        std::map<std::string, std::vector<float>> columns;
+        const int step = std::max(2, std::abs(far) >> 23);  // apart in float
+        for (int i = -40; i < 80; ++i)
+            for (const char axis : {'x', 'y', 'z'})
+                columns[std::string("p.") + axis].push_back(static_cast<float>(far + (axis == 'x' ? i * step : 0)));
+        for (const float beyond :
+             {-1e30F, 1e30F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 0.0F})
+            for (const char axis : {'x', 'y', 'z'}) columns[std::string("p.") + axis].push_back(beyond);
+        const std::size_t count = columns["p.x"].size();
+        for (const std::string name : {"volume_trilinear", "volume_bspline"}) {
+            std::map<std::string, std::vector<float>> got;
+            ColumnResults results;
+            for (const char* result : {"value", "gradient.x", "gradient.y", "gradient.z"})
+                results[result] = got[result] = std::vector<float>(count);
+            evaluate_function(device(), function(name), {columns.begin(), columns.end()}, results,
+                              {.settings = {{"volume", file.file}}});
+            for (std::size_t i = 0; i < count; ++i) {
+                const float x = columns["p.x"][i];
+                if (!(std::abs(x) < 2e9F) || x == 0 || std::abs(x - static_cast<float>(far)) > 60) {
+                    EXPECT_EQ(got["value"][i], 3.0F) << name << " at " << x;
+                } else if (name == "volume_trilinear") {
+                    EXPECT_EQ(got["value"][i], grid.at(static_cast<int>(x), far, far, 0))
+                        << x - static_cast<float>(far);
+                }
+            }
+        }
+    }
 }
 
 }  // namespace

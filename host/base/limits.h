@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "wrinkle/limits.h"
+
+/// The limits of the process, for whoever has to keep them.
+namespace wrinkle {
+
+/// As set_limits() set them.
+const Limits& limits();
+
+/// The least of all limits of memory, and whose it is.
+struct MemoryLimit {
+    double bytes = 0;
+    std::string whose;  ///< "--memory", "the cgroup"
+};
+MemoryLimit memory_limit();
+
+/// Throws Error, beginning with `name`, when `bytes` are more than memory_limit(). `what` takes them.
+void check_memory(const std::string& name, double bytes, const std::string& what);
+
+/// Whether a name leads into the sandbox, or there is none. What it leads to may change; is_allowed() knows.
+bool may_be_allowed(const std::filesystem::path& file);
+
+/// Whether a file that is open lies within the sandbox, or there is none.
+bool is_allowed(int descriptor);
+
+}  // namespace wrinkle

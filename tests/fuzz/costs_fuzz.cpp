@@ -1,0 +1,8 @@
+#include "budget/cost_table.h"
+
+#include "tests/fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return wrinkle::fuzz::with_file(data, size, ".json",
+                                    [](const std::filesystem::path& file) { wrinkle::read_costs(file); });
+}

@@ -1,0 +1,8 @@
+#include "wrinkle/decal_layers.h"
+
+#include "tests/fuzz/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return wrinkle::fuzz::with_file(data, size, ".toml",
+                                    [](const std::filesystem::path& file) { wrinkle::load_decals(file, 3); });
+}

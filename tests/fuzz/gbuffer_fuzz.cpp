@@ -1,0 +1,24 @@
+#include <algorithm>
+#include <vector>
+
+#include "io/camera_file.h"
+#include "io/gbuffer_reader.h"
+#include "tests/fuzz/fuzz.h"
+
+/// Roles, cameras in headers, Cryptomatte manifests and the pixels of a frame: by ZIP blocks and by OpenImageIO.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return wrinkle::fuzz::with_file(data, size, ".exr", [](const std::filesystem::path& file) {
+        const wrinkle::GBufferReader reader(file);
+        const auto [width, height] = reader.size();
+        if (std::uint64_t{width} * height > 1 << 22) return;
+        const auto planes = reader.planes();
+        std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{width} * height));
+        std::vector<float*> out;
+        for (auto& plane : values) out.push_back(plane.data());
+        reader.cryptomatte().names();
+        reader.read_rows(0, height, planes, out);
+        try {
+            wrinkle::read_frame_camera({.file = {}, .exr = true}, reader, 0);
+        } catch (const wrinkle::Error&) {}  // most have no camera
+    });
+}
