@@ -89,8 +89,9 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
                     float* out = channel.out + frame_row * size_.width;
                     for (int x = left; x < right; ++x, from_channel += range.channels()) {
                         // Whole numbers were read as uint32_t into the same four bytes.
-                        out[x] = range.whole_numbers ? static_cast<float>(std::bit_cast<std::uint32_t>(*from_channel))
-                                                     : *from_channel;
+                        out[x] = range.whole_numbers && !channel.bits
+                                     ? static_cast<float>(std::bit_cast<std::uint32_t>(*from_channel))
+                                     : *from_channel;
                     }
                 }
             }

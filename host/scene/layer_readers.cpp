@@ -1,5 +1,8 @@
 #include "scene/layer_readers.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace wrinkle::scene {
 namespace {
 
@@ -31,9 +34,27 @@ void read_weight_without_levels(Table& table, Layer& layer) {
 
 void read_project(Table& table, Layer& layer) { table.read("project", layer.project); }
 
+void read_texture_choice(Table& table, TextureUse& texture) {
+    table.read("layer", texture.layer, Compiled::no);
+    table.read("channels", texture.channels);
+    table.read("zero", texture.zero, 0, 65535);
+    if (table.has("channels") && table.has("layer"))
+        table.complain("channels", "names channels beside a layer; keep one of them");
+}
+
+bool read_texture_name(Table& table, TextureUse& texture) {
+    if (!table.is_table("texture")) return table.read_file("texture", texture.file);
+    Table parts = *table.table("texture", "texture of " + table.where());
+    parts.require("file");
+    const bool named = parts.read_file("file", texture.file);
+    read_texture_choice(parts, texture);
+    parts.finish();
+    return named;
+}
+
 void read_texture_file(Table& table, TextureUse& texture) {
     table.require("texture");
-    table.read_file("texture", texture.file);
+    read_texture_name(table, texture);
     if (table.visits()) visit_texture(table, texture);
 }
 
@@ -56,6 +77,9 @@ void visit_texture(Table& table, TextureUse& texture) {
                  {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
     table.choose("slopes", texture.unit,
                  {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}, {"metre", SlopeUnit::metre}});
+    table.compiled_in("layer", texture.layer);
+    table.compiled_in("channels", fmt::format("{}", fmt::join(texture.channels, " ")));
+    table.compiled_in("zero", texture.zero);
 }
 
 void read_green(Table& table, TextureUse& texture) { table.choose("y", texture.y_down, {{"+", false}, {"-", true}}); }

@@ -22,6 +22,10 @@ void read_weight(Table& table, Layer& layer);
 void read_weight_without_levels(Table& table, Layer& layer);
 /// project: for kinds that are gradients in space
 void read_project(Table& table, Layer& layer);
+/// layer, channels, zero: of a file's parts, which are wanted
+void read_texture_choice(Table& table, TextureUse& texture);
+/// The value of texture: a file, or a table of one with its choice. Whether there is one.
+bool read_texture_name(Table& table, TextureUse& texture);
 /// texture
 void read_texture_file(Table& table, TextureUse& texture);
 /// The same, for kinds whose texture holds one content only.
