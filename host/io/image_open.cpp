@@ -54,9 +54,10 @@ void check_dds(const InputFile& file) {
     const std::string_view code(reinterpret_cast<const char*>(header.data()) + code_at, 4);
     const bool coded = (word_of(header, flags_at) & has_code) != 0;
     if (coded && code == "DX10")
-        throw Error(fmt::format("{}: a DDS of the kind DX10 (DXGI format {}), which OpenImageIO does not read; save it as "
-                                "PNG, TIFF or EXR, or as a DDS without that header",
-                                file.name(), word_of(header, dxgi_at)));
+        throw Error(
+            fmt::format("{}: a DDS of the kind DX10 (DXGI format {}), which OpenImageIO does not read; save it as "
+                        "PNG, TIFF or EXR, or as a DDS without that header",
+                        file.name(), word_of(header, dxgi_at)));
     const bool small_blocks = code == "DXT1" || code == "ATI1" || code == "BC4U" || code == "BC4S";
     const std::uint64_t bytes = coded ? (width + 3) / 4 * ((height + 3) / 4) * (small_blocks ? 8 : 16)
                                       : width * height * word_of(header, bits_at) / 8;
@@ -95,8 +96,8 @@ OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpe
         const std::string why = input_ ? input_->geterror() : OIIO::geterror();
         if (why.find("Subsampled") != std::string::npos)
             throw Error(
-                fmt::format("{}: luminance and subsampled chroma, which OpenImageIO does not read; save it as RGB{}", name,
-                            reason(why)));
+                fmt::format("{}: luminance and subsampled chroma, which OpenImageIO does not read; save it as RGB{}",
+                            name, reason(why)));
         throw Error(fmt::format("{}: not an image, or damaged{}", name, reason(why)));
     }
     if (format != "openexr") check_size(spec, *file_);

@@ -31,7 +31,7 @@ bool is_valid(const std::string& role, std::span<const float> components) {
 /// The first rows of the bands that are measured: all of them, or as many, spread evenly, as take no longer than a
 /// blink.
 std::vector<std::uint32_t> measured_bands(const GBufferReader& reader) {
-    constexpr double most_bytes = 160e6;  // uncompressed, as blocks hold all channels of their rows
+    constexpr double most_bytes = 64e6;  // uncompressed, as blocks hold all channels of their rows
     const auto [width, height] = reader.size();
     double bytes = 0;
     for (const auto& channel : reader.channels())

@@ -12,6 +12,7 @@
 #include "io/reason.h"
 #include "io/texture_channels.h"
 #include "io/texture_texels.h"
+#include "io/udim.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -159,6 +160,50 @@ TextureUse used_as(const std::filesystem::path& file, ImageUse use) {
                                                         : Content::height};
 }
 
+/// A texel where there is no tile: flat.
+std::vector<float> flat_texel(Content content, int channels) {
+    std::vector<float> texel(static_cast<std::size_t>(channels), 0.0f);
+    if (content == Content::normal) texel = {0.5f, 0.5f, 1.0f};
+    return texel;
+}
+
+/// All tiles of a <UDIM> texture as one image.
+Image load_tiles(const TextureUse& use) {
+    const auto tiles = io::udim_tiles(use.file);
+    if (tiles.empty()) throw Error(fmt::format("{}: there is no tile of it", use.file.string()));
+    const io::UdimSpan span = io::udim_span(tiles);
+    Image all;
+    int width = 0, height = 0;
+    for (const auto& tile : tiles) {
+        TextureUse one = use;
+        one.file = tile.file;
+        const Image image = bump_of(open_flat(one), one);
+        if (all.texels.empty()) {
+            width = image.width, height = image.height;
+            all = {width * span.columns, height * span.rows, image.channels, {}};
+            const auto flat = flat_texel(use.content, image.channels);
+            const auto texels = static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height);
+            all.texels.reserve(texels * flat.size());
+            for (std::size_t i = 0; i < texels; ++i) all.texels.insert(all.texels.end(), flat.begin(), flat.end());
+        }
+        if (image.width != width || image.height != height)
+            throw Error(fmt::format("{}: {} x {} texels; the other tiles have {} x {}", tile.file.string(), image.width,
+                                    image.height, width, height));
+        // Slopes are per unit of the texture, which now spans more.
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int c = 0; c < image.channels; ++c) {
+                    const auto column = static_cast<std::size_t>(tile.column * width + x);
+                    const auto row = static_cast<std::size_t>(tile.row * height + y);
+                    const int by = use.content != Content::slope ? 1 : c == 0 ? span.columns : span.rows;
+                    all.texels[(row * static_cast<std::size_t>(all.width) + column) *
+                                   static_cast<std::size_t>(all.channels) +
+                               static_cast<std::size_t>(c)] = static_cast<float>(by) * image.at(x, y, c);
+                }
+    }
+    return all;
+}
+
 }  // namespace
 
 Image load_texture(const std::filesystem::path& file, ImageUse use) {
@@ -166,13 +211,13 @@ Image load_texture(const std::filesystem::path& file, ImageUse use) {
 }
 
 Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUnit unit) {
-    return only_errors(file.c_str(), [&] {
-        return slopes_of(open_flat({.file = file, .content = Content::slope}), encoding, unit);
-    });
+    return only_errors(file.c_str(),
+                       [&] { return slopes_of(open_flat({.file = file, .content = Content::slope}), encoding, unit); });
 }
 
 Image load_bump(const TextureUse& use) {
-    return only_errors(use.file.c_str(), [&] { return bump_of(open_flat(use), use); });
+    return only_errors(use.file.c_str(),
+                       [&] { return io::is_udim(use.file) ? load_tiles(use) : bump_of(open_flat(use), use); });
 }
 
 }  // namespace wrinkle

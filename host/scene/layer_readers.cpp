@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/udim.h"
+
 namespace wrinkle::scene {
 namespace {
 
@@ -94,8 +96,14 @@ void read_slope_encoding(Table& table, TextureUse& texture) {
     table.choose("slopes", texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
 }
 
+void refuse_tiles(Table& table, const char* key, const TextureUse& texture) {
+    if (io::is_udim(texture.file))
+        table.complain(key, "names tiles by <UDIM>, which only textures on texture coordinates (uv) may have");
+}
+
 void read_any_texture(Table& table, TextureUse& texture) {
     read_texture_file(table, texture);
+    refuse_tiles(table, "texture", texture);
     table.choose("content", texture.content, {{"height", Content::height}, {"normal", Content::normal}});
     read_green(table, texture);
     read_upscale(table, texture);
@@ -103,9 +111,19 @@ void read_any_texture(Table& table, TextureUse& texture) {
     table.only_with("upscale", texture.content == Content::height, "content", "height");
 }
 
+void span_tiles(Table& table, const TextureUse& texture, UvMapping& mapping) {
+    if (table.visits() || !io::is_udim(texture.file)) return;
+    const io::UdimSpan span = io::udim_span(io::udim_tiles(texture.file));
+    if (mapping.rotation != 0 && span.columns != span.rows)
+        table.complain("uv", "must not rotate a texture of <UDIM> tiles");
+    mapping.scale[0] /= span.columns, mapping.offset[0] /= span.columns;
+    mapping.scale[1] /= span.rows, mapping.offset[1] /= span.rows;
+}
+
 void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping) {
     table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
     if (auto uv = table.table("uv", "uv of " + table.where())) read_uv(*uv, mapping);
+    span_tiles(table, texture, mapping);
 }
 
 }  // namespace wrinkle::scene

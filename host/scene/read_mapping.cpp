@@ -60,6 +60,7 @@ void read_mask(Table& table, Mask& out) {
         if (!table.visits() && !table.has("texture"))
             table.complain("uv", "has an effect only with the key \"texture\"");
     }
+    span_tiles(table, use, texture.uv);
     if (has_texture) out.texture = texture;
     const auto has = [&](const char* key, bool held) { return table.has(key) || (table.visits() && held); };
     if (!has("object", out.object.has_value()) && !has("cryptomatte", out.cryptomatte.has_value()) &&

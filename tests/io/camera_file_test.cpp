@@ -226,7 +226,7 @@ TEST(CameraFile, AWrongAxisIsToldAsSuch) {
     source.look_at = CameraSource::LookAt{{1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0, 0.6};
     expect_mentions(error_of([&] { read_camera(source, GBufferReader(folder / "f.exr")); }),
                     {"fov_y fits", "picture's other side"});
-    source.look_at->eye = {1.6, -7.5, 2.6};
+    source.look_at = CameraSource::LookAt{{2.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.6};
     expect_mentions(error_of([&] { read_camera(source, GBufferReader(folder / "f.exr")); }),
                     {"from = \"positions\" solves fits within"});
 }

@@ -43,11 +43,13 @@ TEST(Cryptomatte, ManifestBesideTheFile) {
 TEST(Cryptomatte, DamagedManifestsKeepWhatCanBeRead) {
     Metadata header;
     header.set("cryptomatte/1/name", "CryptoObject");
-    header.set(
-        "cryptomatte/1/manifest",
-        "{\"Column\":\"8ff21816\",\"B\xf6den \"plane\".001\":\"9c1ab2c0\", \"Kugel, rot\" : \"438da8f6\",\"odd\":7}");
+    header.set("cryptomatte/1/manifest",
+               "{\"Column\":\"8ff21816\",\"B\xf6"
+               "den \"plane\".001\":\"9c1ab2c0\", \"Kugel, rot\" : \"438da8f6\",\"odd\":7}");
     const CryptomatteManifest manifest(header, "CryptoObject", "f.exr");
-    EXPECT_EQ(manifest.names(), (std::vector<std::string>{"B\xf6den \"plane\".001", "Column", "Kugel, rot"}));
+    EXPECT_EQ(manifest.names(), (std::vector<std::string>{"B\xf6"
+                                                          "den \"plane\".001",
+                                                          "Column", "Kugel, rot"}));
     EXPECT_EQ(manifest.id("Kugel, rot"), 0x438da8f6u);
     EXPECT_EQ(manifest.id("Torus"), 0x789a1936u);  // lost, so hashed
     header.set("cryptomatte/1/manifest", "{oops");

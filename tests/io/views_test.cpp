@@ -37,16 +37,16 @@ PartSpec part(const std::string& name, const std::string& view, Names channels, 
 
 TEST(Views, PartsOfAnotherViewAreNotThere) {
     TempFolder folder;
-    const Names channels{"N.X", "N.Y", "N.Z", "Z"};
+    const Names channels{"Z", "N.X", "N.Y", "N.Z"};
     write_image(folder / "a.exr", {part("left", "left", channels, 10), part("right", "right", channels, 20)});
     const auto left = open(folder / "a.exr"), right = open(folder / "a.exr", "right");
     EXPECT_EQ(left.views(), (Names{"left", "right"}));
     EXPECT_EQ(left.view(), "left");
     EXPECT_EQ(left.channels(), channels);
     EXPECT_EQ(right.channels(), channels);
-    EXPECT_EQ(first(left, "normal.y"), 11);
-    EXPECT_EQ(first(right, "normal.y"), 21);
-    EXPECT_EQ(first(right, "depth"), 23);
+    EXPECT_EQ(first(left, "normal.y"), 12);
+    EXPECT_EQ(first(right, "normal.y"), 22);
+    EXPECT_EQ(first(right, "depth"), 20);
     expect_mentions(error_of([&] { open(folder / "a.exr", "centre"); }), {"no view \"centre\"", "\"left\", \"right\""});
 }
 
