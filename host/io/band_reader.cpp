@@ -126,7 +126,7 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
 
 bool BandReader::read_zip_blocks(const Range& range, int y_begin, int y_end, std::span<float> out) {
     std::vector<BlockChannel> channels;
-    for (const auto& [place, to] : range.wanted)
+    for (const auto& [place, to, bits] : range.wanted)
         channels.push_back({place.stored_name, out.subspan(static_cast<std::size_t>(place.index - range.begin)),
                             place.whole_numbers, place.half});
     return zip_blocks_.read(range.part, channels, y_begin, y_end, range.channels());
