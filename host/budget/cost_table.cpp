@@ -99,7 +99,9 @@ void write_costs(const std::filesystem::path& file, const std::vector<DeviceCost
         devices.push_back(
             {{"class", table.device_class}, {"device", table.device}, {"driver", table.driver}, {"kinds", kinds}});
     }
-    const std::string text = nlohmann::ordered_json{{"devices", devices}}.dump(1) + "\n";
+    const std::string text =
+        nlohmann::ordered_json{{"devices", devices}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+        "\n";
     AtomicFile out(file);
     out.write(text);
     out.commit();

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_text.h"
 #include "wrinkle/device.h"
 
 namespace wrinkle::cli {
@@ -23,7 +24,7 @@ void devices(bool json) {
                             {"memory_bytes", device.memory},
                             {"lanes", device.lanes},
                             {"fp64", device.fp64}});
-        fmt::print("{}\n", rows.dump(2));
+        fmt::print("{}\n", json_text(rows));
         return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {

@@ -9,11 +9,11 @@
 #include "cli/commands.h"
 #include "cli/explain_budget.h"
 #include "cli/frame_list.h"
+#include "cli/json_text.h"
 #include "cli/options.h"
 #include "device/kernel_sources.h"
 #include "device/program.h"
 #include "io/camera_file.h"
-#include "io/frame_path.h"
 #include "layers/kinds.h"
 #include "resources/volume_heap.h"
 #include "run/bin_report.h"
@@ -44,7 +44,7 @@ std::string join(const std::vector<std::string>& names) {
 
 /// Warns of a camera that "wrinkle run" would refuse: it makes no difference to the plan.
 void warn_of_camera(const Scene& scene, int number) {
-    const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+    const GBufferReader reader = open_frame(scene, number);
     const FrameCamera camera = read_frame_camera(scene.camera, reader, number);
     try {
         check_residual(camera, scene.camera.max_residual, reader);
@@ -137,17 +137,16 @@ void print_json(const Plan& plan, double operations, const OnDevice& on, const s
                             {"title", section.title},
                             {"planes", section.planes},
                             {"operations_per_pixel", section.operations}});
-    fmt::print("{}\n", nlohmann::json{{"inputs", plan.inputs},
-                                      {"outputs", plan.outputs},
-                                      {"device", device_json(on)},
-                                      {"bytes_per_pixel", plan.bytes},
-                                      {"operations_per_pixel", operations},
-                                      {"sections", sections},
-                                      {"bins", lists},
-                                      {"volumes", volumes_json(volumes)},
-                                      {"budget", budget ? choice_json(*budget) : nlohmann::json()},
-                                      {"source", plan.source}}
-                           .dump(2));
+    fmt::print("{}\n", json_text(nlohmann::json{{"inputs", plan.inputs},
+                                                {"outputs", plan.outputs},
+                                                {"device", device_json(on)},
+                                                {"bytes_per_pixel", plan.bytes},
+                                                {"operations_per_pixel", operations},
+                                                {"sections", sections},
+                                                {"bins", lists},
+                                                {"volumes", volumes_json(volumes)},
+                                                {"budget", budget ? choice_json(*budget) : nlohmann::json()},
+                                                {"source", plan.source}}));
 }
 
 void explain(const ExplainArguments& arguments) {

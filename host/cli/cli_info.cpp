@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/names.h"
 #include "cli/commands.h"
 #include "cli/frame_list.h"
+#include "cli/json_text.h"
+#include "io/channel_names.h"
 #include "io/info.h"
+#include "tools/frame_warnings.h"
 #include "tools/readiness.h"
 
 namespace wrinkle::cli {
@@ -19,18 +23,58 @@ std::string join(const std::vector<std::string>& names) {
     return text;
 }
 
+const char* type_name(ChannelType type) {
+    return type == ChannelType::half    ? "16-bit floats"
+           : type == ChannelType::whole ? "32-bit integers"
+                                        : "32-bit floats";
+}
+
+std::vector<std::string> channels_of(const GBufferInfo& info, ChannelType type) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < info.channels.size(); ++i)
+        if (info.types[i] == type) names.push_back(info.channels[i]);
+    return names;
+}
+
+/// What is done to roles before they are used, and what spoils them.
+std::vector<std::string> remarks(const GBufferInfo& info) {
+    std::vector<std::string> lines;
+    if (info.packed_normals) lines.emplace_back("normals are stored in [0,1] and unpacked");
+    if (info.roles.camera_space_normals) lines.emplace_back("normals are in camera space, and turned by the camera");
+    if (info.roles.v_down && info.roles.has_role("uv")) lines.emplace_back("v grows downwards, and is turned");
+    if (info.roles.has_role("object") && info.objects == io::ObjectStorage::bits)
+        lines.emplace_back("object numbers are the bits of floats");
+    for (const RoleStats& role : info.stats)
+        if (role.mixed > 0)
+            lines.push_back(fmt::format(
+                "object: {:.2g}% of the pixels hold no whole number but the average of several, and belong to none",
+                100.0 * static_cast<double>(role.mixed) / static_cast<double>(info.measured)));
+    if (const std::string problem = uv_problem(info); !problem.empty()) lines.push_back(problem);
+    return lines;
+}
+
 void print_text(const GBufferInfo& info) {
-    fmt::print("{}: {} x {}, {} part{}, {} channels, written by {}\n\n", info.file.string(), info.size.width,
+    fmt::print("{}: {} x {}, {} part{}, {} channels, written by {}\n", info.file.string(), info.size.width,
                info.size.height, info.parts, info.parts == 1 ? "" : "s", info.channels.size(),
                writer_name(info.roles.writer));
+    for (const ChannelType type : {ChannelType::half, ChannelType::single, ChannelType::whole})
+        if (const auto of_type = channels_of(info, type); !of_type.empty())
+            fmt::print("  {}: {}\n", type_name(type), io::describe_channels(of_type));
+    if (info.views.size() > 1)
+        fmt::print("  views: {}; this is {} ([gbuffer] view chooses)\n", join(info.views), info.view);
+    if (info.measured < info.pixels())
+        fmt::print("  measured: {:.0f}% of the rows, spread over the frame\n",
+                   100.0 * static_cast<double>(info.measured) / static_cast<double>(info.pixels()));
+    fmt::print("\n");
     fmt::print("  {:<12}{:<34}{:>13}{:>13}{:>12}\n", "role", "channels", "least", "largest", "invalid");
     for (const RoleStats& role : info.stats)
-        fmt::print("  {:<12}{:<34}{:>13.5g}{:>13.5g}{:>11.2f}%\n", role.role,
-                   role.channels.empty()
-                       ? ""
-                       : fmt::format("{}{}", role.channels.front(), role.channels.size() > 1 ? " ..." : ""),
-                   role.min, role.max, 100.0 * static_cast<double>(role.invalid) / static_cast<double>(info.pixels()));
-    if (info.packed_normals) fmt::print("  normals are stored in [0,1] and unpacked\n");
+        fmt::print(
+            "  {:<12}{:<34}{:>13.5g}{:>13.5g}{:>11.2f}%\n", role.role,
+            role.channels.empty() ? ""
+                                  : fmt::format("{}{}", role.channels.front(), role.channels.size() > 1 ? " ..." : ""),
+            role.min, role.max,
+            100.0 * static_cast<double>(role.invalid) / static_cast<double>(std::max<std::uint64_t>(info.measured, 1)));
+    for (const std::string& line : remarks(info)) fmt::print("  {}\n", line);
     if (info.roles.has_role("depth")) {
         const bool measured = info.camera && info.camera->depth;
         const DepthKind kind = measured ? *info.camera->depth : info.roles.depth;
@@ -38,7 +82,6 @@ void print_text(const GBufferInfo& info) {
                    kind == DepthKind::ray ? "the distance along the ray" : "planar (along the view axis)",
                    measured ? "measured against the positions" : "by the writer");
     }
-    if (info.roles.screen_space_normals) fmt::print("  normals are in camera space; give a world-space role\n");
     if (!info.cryptomatte_names.empty()) fmt::print("  Cryptomatte names: {}\n", join(info.cryptomatte_names));
 
     if (info.camera) {
@@ -48,6 +91,7 @@ void print_text(const GBufferInfo& info) {
                        info.camera->residual->median, info.camera->residual->p99, info.camera->residual->count);
         else
             fmt::print("  no positions to check it against\n");
+        if (!info.camera_problem.empty()) fmt::print("  refused: {}\n", info.camera_problem);
     } else {
         fmt::print("\ncamera: none found{}{}\n", info.camera_problem.empty() ? "" : ": ", info.camera_problem);
     }
@@ -63,32 +107,38 @@ void print_json(const GBufferInfo& info) {
     nlohmann::json roles = nlohmann::json::array(), uses = nlohmann::json::array(), camera;
     for (const RoleStats& role : info.stats)
         roles.push_back({{"role", role.role},
+                         {"mixed", role.mixed},
                          {"channels", role.channels},
                          {"min", role.min},
                          {"max", role.max},
                          {"invalid", role.invalid}});
     for (const Readiness& use : readiness(info))
         uses.push_back({{"use", use.use}, {"missing", use.missing}, {"defaults", use.defaults}});
+    nlohmann::json types = nlohmann::json::array();
+    for (const ChannelType type : info.types) types.push_back(type_name(type));
     if (info.camera) {
         camera["origin"] = info.camera->origin;
         if (info.camera->residual)
             camera["residual_pixels"] = {{"median", info.camera->residual->median},
                                          {"p99", info.camera->residual->p99},
                                          {"samples", info.camera->residual->count}};
-    } else {
-        camera["problem"] = info.camera_problem;
     }
-    fmt::print("{}\n", nlohmann::json{{"file", info.file.string()},
-                                      {"writer", std::string(writer_name(info.roles.writer))},
-                                      {"width", info.size.width},
-                                      {"height", info.size.height},
-                                      {"parts", info.parts},
-                                      {"channels", info.channels},
-                                      {"roles", roles},
-                                      {"camera", camera},
-                                      {"uses", uses},
-                                      {"cryptomatte", info.cryptomatte_names}}
-                           .dump(2));
+    if (!info.camera_problem.empty()) camera["problem"] = info.camera_problem;
+    fmt::print("{}\n", json_text(nlohmann::json{{"file", info.file.string()},
+                                                {"writer", std::string(writer_name(info.roles.writer))},
+                                                {"width", info.size.width},
+                                                {"height", info.size.height},
+                                                {"parts", info.parts},
+                                                {"channels", info.channels},
+                                                {"types", types},
+                                                {"views", info.views},
+                                                {"view", info.view},
+                                                {"measured_pixels", info.measured},
+                                                {"remarks", remarks(info)},
+                                                {"roles", roles},
+                                                {"camera", camera},
+                                                {"uses", uses},
+                                                {"cryptomatte", info.cryptomatte_names}}));
 }
 
 struct InfoArguments {

@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/frame_list.h"
+#include "cli/json_text.h"
 #include "cli/options.h"
 #include "io/threads.h"
 #include "tools/render.h"
@@ -87,28 +88,27 @@ void print_table(const RenderReport& report) {
 void print_json(const RenderReport& report) {
     nlohmann::json files = nlohmann::json::array();
     for (const auto& file : report.files) files.push_back(file.string());
-    fmt::print("{}\n", nlohmann::json{{"frames", report.frames},
-                                      {"pixels", report.pixels},
-                                      {"layers", report.layers},
-                                      {"device", report.device.name},
-                                      {"lanes", report.device.lanes},
-                                      {"cache_hit", report.cache_hit},
-                                      {"seconds",
-                                       {{"read", report.read},
-                                        {"upload", report.upload},
-                                        {"build", report.build},
-                                        {"kernels", report.kernels},
-                                        {"check", report.check},
-                                        {"write", report.write},
-                                        {"wall", report.wall},
-                                        {"outside", report.outside}}},
-                                      {"kernel_ns_per_pixel", report.kernel_ns_per_pixel},
-                                      {"peak_memory_bytes", report.peak_memory},
-                                      {"cameras", report.cameras},
-                                      {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
-                                      {"warnings", report.warnings},
-                                      {"files", files}}
-                           .dump(2));
+    fmt::print("{}\n", json_text(nlohmann::json{{"frames", report.frames},
+                                                {"pixels", report.pixels},
+                                                {"layers", report.layers},
+                                                {"device", report.device.name},
+                                                {"lanes", report.device.lanes},
+                                                {"cache_hit", report.cache_hit},
+                                                {"seconds",
+                                                 {{"read", report.read},
+                                                  {"upload", report.upload},
+                                                  {"build", report.build},
+                                                  {"kernels", report.kernels},
+                                                  {"check", report.check},
+                                                  {"write", report.write},
+                                                  {"wall", report.wall},
+                                                  {"outside", report.outside}}},
+                                                {"kernel_ns_per_pixel", report.kernel_ns_per_pixel},
+                                                {"peak_memory_bytes", report.peak_memory},
+                                                {"cameras", report.cameras},
+                                                {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
+                                                {"warnings", report.warnings},
+                                                {"files", files}}));
 }
 
 void run(const RunArguments& arguments) {

@@ -47,9 +47,9 @@ void scatter(ScatterArguments arguments) {
     refuse_to_replace(arguments.file, scene::files_of(layer_kinds(), scene));
     check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
-    const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+    GBufferReader reader = open_frame(scene, number);
     refuse_to_replace(arguments.file, std::array{reader.path(), frame_path(scene.camera.file, number)});
-    check_residual(read_frame_camera(scene.camera, reader, number), scene.camera.max_residual, reader);
+    camera_of_frame(scene, reader, number);
     const Frame frame = describe_frame(scene, number);
     std::map<std::string, std::vector<float>> pixels;
     for (const std::string& name : planes_of(scene.gbuffer.geometry))

@@ -89,8 +89,9 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
                     float* out = channel.out + frame_row * size_.width;
                     for (int x = left; x < right; ++x, from_channel += range.channels()) {
                         // Whole numbers were read as uint32_t into the same four bytes.
-                        out[x] = range.whole_numbers ? static_cast<float>(std::bit_cast<std::uint32_t>(*from_channel))
-                                                     : *from_channel;
+                        out[x] = range.whole_numbers && !channel.bits
+                                     ? static_cast<float>(std::bit_cast<std::uint32_t>(*from_channel))
+                                     : *from_channel;
                     }
                 }
             }
@@ -125,9 +126,11 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
 
 bool BandReader::read_zip_blocks(const Range& range, int y_begin, int y_end, std::span<float> out) {
     std::vector<BlockChannel> channels;
-    for (const auto& [place, to] : range.wanted)
+    for (const auto& channel : range.wanted) {
+        const ChannelPlace& place = channel.place;
         channels.push_back({place.stored_name, out.subspan(static_cast<std::size_t>(place.index - range.begin)),
                             place.whole_numbers, place.half});
+    }
     return zip_blocks_.read(range.part, channels, y_begin, y_end, range.channels());
 }
 

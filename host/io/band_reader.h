@@ -15,7 +15,8 @@ namespace wrinkle::io {
 /// A channel to read, and where to.
 struct WantedChannel {
     ChannelPlace place;
-    float* out;  ///< rows of the frame's width
+    float* out;         ///< rows of the frame's width
+    bool bits = false;  ///< whole numbers come as their bits, not as the nearest floats
 };
 
 /// Reads some channels of a frame, a band of rows at a time. Each part of the file is read once, from the first to the

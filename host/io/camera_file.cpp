@@ -6,8 +6,12 @@
 
 #include "io/camera_check.h"
 #include "io/camera_json.h"
+#include "io/camera_misfit.h"
+#include "io/camera_placing.h"
+#include "io/channel_names.h"
 #include "io/frame_path.h"
 #include "io/header_camera.h"
+#include "io/solve_camera.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -28,30 +32,77 @@ std::string why_no_camera(const Metadata& header) {
 
 FrameCamera camera_of_header(const GBufferReader& reader, std::span<const PositionSample> samples) {
     const auto& header = reader.metadata();
-    if (auto best = io::best_header_camera(header, reader.size(), reader.roles().writer, samples)) {
-        return {best->camera, "header: " + best->reading, {}, {}};
+    if (auto best = io::best_header_camera(header, reader.window().display, reader.pixel_aspect(),
+                                           reader.roles().writer, samples)) {
+        return {best->camera, "header: " + best->reading, {}, {}, {}};
     }
     throw Error(
-        fmt::format("{}: the header has no camera: {}; give [camera] file, view and proj, or eye, target and fov",
+        fmt::format("{}: the header has no camera: {}; give [camera] file, from = \"positions\", view and proj, or "
+                    "eye, target and fov",
                     reader.path().string(), why_no_camera(header)));
+}
+
+FrameCamera camera_of_positions(const GBufferReader& reader, std::span<const PositionSample> samples) {
+    const auto fail = [&](std::string_view why) {
+        throw Error(fmt::format("{}: the camera cannot be solved from the positions: {}", reader.path().string(), why));
+    };
+    if (!reader.has_role("position"))
+        fail("the frame has no position pass; channels found: " + io::describe_channels(reader.channels()));
+    try {
+        return {io::solve_camera(samples, reader.window().display, reader.pixel_aspect()),
+                "solved from the positions",
+                {},
+                {},
+                {}};
+    } catch (const Error& error) { fail(error.what()); }
+    return {};
+}
+
+/// FRAME.camera.json beside the frame, or the same without the frame's extension.
+std::optional<std::filesystem::path> camera_beside(const std::filesystem::path& frame) {
+    for (auto beside : {frame.string() + ".camera.json",
+                        std::filesystem::path(frame).replace_extension().string() + ".camera.json"}) {
+        std::error_code code;
+        if (std::filesystem::exists(beside, code)) return beside;
+    }
+    return std::nullopt;
+}
+
+/// The camera of a scene that names none.
+FrameCamera camera_found(const GBufferReader& reader, double max_residual, std::span<const PositionSample> samples) {
+    const Size size = reader.window().display;
+    if (const auto beside = camera_beside(reader.path()))
+        return {io::read_camera_json(*beside, size), beside->string(), {}, {}, {}};
+    std::optional<io::HeaderCamera> best =
+        io::best_header_camera(reader.metadata(), size, reader.pixel_aspect(), reader.roles().writer, samples);
+    const bool fits =
+        best && (samples.empty() || reprojection_residual(best->camera, size, samples).median <= max_residual);
+    if (fits || (best && !reader.has_role("position"))) return {best->camera, "header: " + best->reading, {}, {}, {}};
+    if (reader.has_role("position")) return camera_of_positions(reader, samples);
+    throw Error(fmt::format(
+        "{}: no camera: there is no {}.camera.json, the header has none ({}), and without a position pass none can be "
+        "solved; give [camera] file, view and proj, or eye, target and fov",
+        reader.path().string(), reader.path().filename().string(), why_no_camera(reader.metadata())));
 }
 
 FrameCamera camera_of(const CameraSource& source, const GBufferReader& reader, int frame,
                       std::span<const PositionSample> samples) {
-    const auto size = reader.size();
+    const Size size = reader.window().display;
     if (!source.file.empty()) {
         const auto file = frame_path(source.file, frame);
-        return {io::read_camera_json(file, size), file.string(), {}, {}};
+        return {io::read_camera_json(file, size), file.string(), {}, {}, {}};
     }
     if (source.exr) return camera_of_header(reader, samples);
+    if (source.positions) return camera_of_positions(reader, samples);
     if (source.inline_camera)
-        return {io::checked_camera(*source.inline_camera, "[camera]"), "view and proj of the scene", {}, {}};
-    if (source.look_at) {
-        const auto& [eye, target, up, fov_y] = *source.look_at;
-        const double aspect = static_cast<double>(size.width) / size.height;
-        return {Camera::look_at(eye, target, up, fov_y, aspect), "eye and target of the scene", {}, {}};
-    }
-    throw Error("the scene has no camera; give [camera] file, from = \"exr\", view and proj, or eye, target and fov");
+        return {io::checked_camera(*source.inline_camera, "[camera]"), "view and proj of the scene", {}, {}, {}};
+    if (source.look_at)
+        return {io::camera_looking(*source.look_at, size, reader.pixel_aspect()),
+                "eye and target of the scene",
+                {},
+                {},
+                {}};
+    return camera_found(reader, source.max_residual, samples);
 }
 
 }  // namespace
@@ -59,20 +110,30 @@ FrameCamera camera_of(const CameraSource& source, const GBufferReader& reader, i
 FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& reader, int frame) {
     const auto samples = sample_positions(reader);
     auto result = camera_of(source, reader, frame, samples);
+    const Size display = reader.window().display;
     if (!samples.empty()) {
-        result.residual = reprojection_residual(result.camera, reader.size(), samples);
+        result.residual = reprojection_residual(result.camera, display, samples);
         result.depth = measure_depth_kind(result.camera, samples);
+        if (result.residual->median > source.max_residual)
+            result.hint = io::explain_misfit(source, result.camera, display, reader.pixel_aspect(), samples);
     }
+    result.camera = io::windowed(result.camera, reader.window(), reader.size());
     return result;
+}
+
+std::string describe_residual(const FrameCamera& camera) {
+    if (!camera.residual) return "no positions to check it against";
+    return fmt::format("positions reproject within {:.3g} pixel (median), {:.3g} (99%)", camera.residual->median,
+                       camera.residual->p99);
 }
 
 void check_residual(const FrameCamera& camera, double max_residual, const GBufferReader& reader) {
     if (!camera.residual || camera.residual->median <= max_residual) return;
-    throw Error(fmt::format(
-        "the camera ({}) does not fit {}: positions reproject {:.3g} pixels away (median of {}; "
-        "[camera] max_residual = {} allows less); is it the camera of this frame, and are the "
-        "positions in world space?",
-        camera.origin, reader.path().string(), camera.residual->median, camera.residual->count, max_residual));
+    throw Error(
+        fmt::format("the camera ({}) does not fit {}: positions reproject {:.3g} pixels away (median of {}; "
+                    "[camera] max_residual = {} allows less); {}",
+                    camera.origin, reader.path().string(), camera.residual->median, camera.residual->count,
+                    max_residual, camera.hint));
 }
 
 Camera read_camera(const CameraSource& source, const GBufferReader& reader, int frame) {

@@ -16,12 +16,16 @@ struct FrameCamera {
     std::string origin;                ///< file name, or how the header was read
     std::optional<Residual> residual;  ///< nothing without positions to compare with
     std::optional<DepthKind> depth;    ///< what the depth plane holds, where position and depth both exist
+    std::string hint;                  ///< what seems to be wrong where the residual is large
 };
 
-/// Reads the camera of frame number `frame` from wherever `source` says. Measures the residual, and leaves it to
-/// check_residual() to refuse a large one.
-/// Throws Error when the file is missing or malformed, is for another aspect, or its matrices are no camera.
+/// Reads the camera of frame number `frame` from wherever `source` says, as one for all of the frame, overscan
+/// included. Measures the residual, and leaves it to check_residual() to refuse a large one. Throws Error when the file
+/// is missing or malformed, is for another aspect, or its matrices are no camera.
 FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& reader, int frame = 0);
+
+/// "within 0.002 pixel (median)"; how well a camera fits.
+std::string describe_residual(const FrameCamera& camera);
 
 /// Throws Error when the positions reproject farther than `max_residual` pixels (their median).
 void check_residual(const FrameCamera& camera, double max_residual, const GBufferReader& reader);

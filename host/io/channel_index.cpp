@@ -1,6 +1,7 @@
 #include "io/channel_index.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "base/names.h"
@@ -32,24 +33,32 @@ std::vector<std::string> ChannelIndex::match(const Role& role, const std::string
     return {};
 }
 
-CryptomatteLayers find_cryptomattes(const ChannelIndex& index) {
-    CryptomatteLayers result;
+CryptomatteLayers find_cryptomattes(const ChannelIndex& index, std::span<const std::string> described) {
+    const auto is_described = [&](const std::string& stem) {
+        return std::ranges::any_of(described, [&](const std::string& name) {
+            return !name.empty() && (stem == name || stem.ends_with("." + name) || name.ends_with("." + stem));
+        });
+    };
+    std::map<std::string, std::map<int, std::array<CryptomatteRank, 2>>> found;  // by stem, then by the layer's number
     for (const auto& layer : index.layers) {
-        const auto digits = layer.size() >= 2 ? layer.substr(layer.size() - 2) : "";
-        if (!contains_ignoring_case(layer, "crypto") ||
-            !std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c); }) || digits.empty())
-            continue;
+        const auto digits = layer.size() > 2 ? layer.substr(layer.size() - 2) : "";
+        if (digits.empty() || !std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c); })) continue;
         const auto stem = layer.substr(0, layer.size() - 2);
+        if (!contains_ignoring_case(stem, "crypto") && !is_described(stem)) continue;
         const Role rgba{"beauty", {"", "", ""}};  // stands in for Cryptomatte: a role of three planes finds R, G and B
         const auto rgb = index.match(rgba, layer);
         const auto& all = index.components.at(layer);
         const auto alpha = all.contains("a") ? all.find("a") : all.find("alpha");
         if (rgb.size() != 3 || alpha == all.end()) continue;
-        auto& ranks = result[stem];
-        const auto first = 2 * static_cast<std::size_t>(std::stoi(digits));
-        if (first != ranks.size()) continue;  // a rank is missing before this one, so its number would be wrong
-        ranks.push_back({rgb[0], rgb[1]});
-        ranks.push_back({rgb[2], alpha->second});
+        found[stem][std::stoi(digits)] = {{{rgb[0], rgb[1]}, {rgb[2], alpha->second}}};
+    }
+    CryptomatteLayers result;
+    for (const auto& [stem, layers] : found) {
+        int next = 0;
+        for (const auto& [number, ranks] : layers) {
+            if (number != next++) break;  // a layer is missing, so the numbers of the ranks after it would be wrong
+            result[stem].insert(result[stem].end(), ranks.begin(), ranks.end());
+        }
     }
     return result;
 }

@@ -26,8 +26,9 @@ struct CryptomatteRank {
 };
 
 /// Cryptomattes by the stem of their layers' names. Each layer (CryptoObject00, CryptoObject01 ...) holds two ranks, as
-/// (R, G) and (B, A).
+/// (R, G) and (B, A), in whatever order the file has them. They are those that the header describes, and those that
+/// have "crypto" in their names.
 using CryptomatteLayers = std::map<std::string, std::vector<CryptomatteRank>>;
-CryptomatteLayers find_cryptomattes(const ChannelIndex& index);
+CryptomatteLayers find_cryptomattes(const ChannelIndex& index, std::span<const std::string> described);
 
 }  // namespace wrinkle::io

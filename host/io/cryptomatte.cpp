@@ -44,6 +44,43 @@ bool is_bare_name(const std::string& name) {
            name.find('\0') == std::string::npos;
 }
 
+/// The entries of a manifest that is no JSON: `"NAME":"8 hex digits"`, where the name may hold quotes that nobody
+/// escaped, or letters that are no UTF-8.
+std::map<std::string, std::uint32_t, std::less<>> entries_of_damaged(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\n";
+    std::map<std::string, std::uint32_t, std::less<>> ids;
+    std::size_t name_begin = text.find('"');
+    while (name_begin != std::string_view::npos) {
+        ++name_begin;
+        std::size_t next = std::string_view::npos;
+        for (auto end = text.find('"', name_begin); end != std::string_view::npos; end = text.find('"', end + 1)) {
+            const auto colon = text.find_first_not_of(blanks, end + 1);
+            if (colon == std::string_view::npos || text[colon] != ':') continue;
+            const auto value = text.find_first_not_of(blanks, colon + 1);
+            if (value == std::string_view::npos || text[value] != '"' || text.substr(value).size() < 10) continue;
+            const auto id = parse_hex(text.substr(value + 1, 8));
+            if (!id || text[value + 9] != '"') continue;
+            ids.emplace(text.substr(name_begin, end - name_begin), *id);
+            next = value + 10;
+            break;
+        }
+        name_begin = next == std::string_view::npos ? next : text.find('"', next);
+    }
+    return ids;
+}
+
+/// The text of a regular file that a header names, in the folder of the frame and nowhere else; nothing if there is
+/// none.
+std::optional<std::string> text_beside(const std::filesystem::path& frame, const std::string& name) {
+    if (!is_bare_name(name)) return std::nullopt;
+    const auto path = frame.parent_path() / name;
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, code))) return std::nullopt;
+    try {
+        return read_text(path);
+    } catch (const Error&) { return std::nullopt; }
+}
+
 /// Which "cryptomatte/KEY/" of the header describes `layer`. Names that differ by a prefix count as the same, and a
 /// header with a single cryptomatte describes that one.
 std::string find_key(const Metadata& header, const std::string& layer) {
@@ -74,23 +111,13 @@ CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::stri
     const auto key = find_key(header, layer);
     if (key.empty()) return;
     auto text = header.text(key + "manifest").value_or("");
-    std::string origin = file.string();
-    if (const auto beside = header.text(key + "manif_file"); text.empty() && beside && is_bare_name(*beside)) {
-        const auto path = file.parent_path() / *beside;
-        try {
-            text = read_text(path);
-        } catch (const Error&) {
-            return;  // without a manifest, names are hashed
-        }
-        origin = path.string();
-    }
+    if (const auto beside = header.text(key + "manif_file"); text.empty() && beside)
+        text = text_beside(file, *beside).value_or("");
     if (text.empty()) return;
     const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
-    if (!json.is_object()) {
-        damage_ = fmt::format(
-            "{}: the manifest of cryptomatte {} is not a JSON object of names; name objects as \"#\" "
-            "and 8 hex digits, or render the frame anew",
-            origin, layer);
+    damaged_ = !json.is_object();
+    if (damaged_) {
+        ids_ = entries_of_damaged(text);
         return;
     }
     for (const auto& [name, value] : json.items()) {
@@ -109,10 +136,9 @@ std::uint32_t CryptomatteManifest::id(std::string_view name) const {
     if (name.starts_with("#")) {
         if (const auto id = parse_hex(name.substr(1))) return *id;
     }
-    if (!damage_.empty()) throw Error(damage_);
-    if (ids_.empty()) return cryptomatte_hash(name);
     const auto found = ids_.find(name);
     if (found != ids_.end()) return found->second;
+    if (ids_.empty() || damaged_) return cryptomatte_hash(name);
     const auto known = names();
     throw Error(fmt::format("cryptomatte {} has no object \"{}\"; nearest: \"{}\"; objects: {}", layer_, name,
                             nearest_name(name, known), fmt::join(known, ", ")));

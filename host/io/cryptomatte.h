@@ -19,19 +19,20 @@ std::uint32_t cryptomatte_hash(std::string_view name);
 class CryptomatteManifest {
 public:
     CryptomatteManifest() = default;
-    /// The manifest of `layer` ("ViewLayer.CryptoObject") that the header of `file` holds, or names as a file beside
-    /// it. A damaged one does no harm until id() is asked for a name.
+    /// The manifest of `layer` ("ViewLayer.CryptoObject") that the header of `file` holds, or names as a file in the
+    /// same folder. Of a damaged one, those entries are taken that can be read.
     CryptomatteManifest(const Metadata& header, const std::string& layer, const std::filesystem::path& file);
 
     std::vector<std::string> names() const;
 
-    /// The id's bits, of an object's name or of "#" and 8 hex digits. Without a manifest, the name is hashed. Throws
-    /// Error when the manifest is damaged or has no such name.
+    /// The id's bits, of an object's name or of "#" and 8 hex digits. Without a manifest, or with a damaged one that
+    /// lacks it, the name is hashed. Throws Error when the manifest has no such name.
     std::uint32_t id(std::string_view name) const;
 
 private:
     std::map<std::string, std::uint32_t, std::less<>> ids_;
-    std::string layer_, damage_;
+    std::string layer_;
+    bool damaged_ = false;
 };
 
 }  // namespace wrinkle

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/names.h"
@@ -16,16 +18,26 @@
 namespace wrinkle {
 namespace {
 
-constexpr std::string_view file_channel = "channel:";
+constexpr std::string_view file_channel = "channel:", bits_of_channel = "bits:";
 const std::vector<std::string> normal_planes{"normal.x", "normal.y", "normal.z"};
 
-RoleMap detect(const std::filesystem::path& file, std::span<const std::string> channels, const GBufferSource& source) {
+RoleMap detect(const std::filesystem::path& file, std::span<const std::string> channels, const GBufferSource& source,
+               const Metadata& header) {
     try {
-        auto roles = detect_roles(channels, source.roles);
-        if (source.depth != DepthKind::automatic) roles.depth = source.depth;
-        return roles;
+        return detect_roles(channels, source, header_hints(header));
     } catch (const Error& error) { throw Error(fmt::format("{}: {}", file.string(), error.what())); }
 }
+
+/// Texture coordinates that grow downwards become such that grow upwards; so do their derivatives.
+void turn_v(std::string_view plane, std::span<float> values) {
+    if (plane == "uv.v")
+        for (float& value : values) value = 1 - value;
+    else if (plane == "duv_dx.v" || plane == "duv_dy.v" || plane.starts_with("dp_dv."))
+        for (float& value : values) value = -value;
+}
+
+/// Values of a few rows that are spread over the frame, and of which each costs a block of the file.
+constexpr std::uint32_t sampled_tenths[] = {5, 3, 7, 1, 9};
 
 }  // namespace
 
@@ -36,6 +48,8 @@ struct GBufferReader::Impl {
     std::map<std::string, const io::ChannelPlace*, std::less<>> places;
     RoleMap roles;
     bool packed_normals = false;
+    std::optional<Mat4> view;  // that turns camera-space normals
+    std::optional<io::ObjectStorage> objects;
     CryptomatteManifest cryptomatte;
     std::unique_ptr<io::BandReader> reader;
 
@@ -43,6 +57,8 @@ struct GBufferReader::Impl {
         auto channel = plane;
         if (plane.starts_with(file_channel)) {
             channel.remove_prefix(file_channel.size());
+        } else if (plane.starts_with(bits_of_channel)) {
+            channel.remove_prefix(bits_of_channel.size());
         } else {
             const auto mapped = roles.channel_of.find(plane);
             if (mapped == roles.channel_of.end()) return nullptr;
@@ -74,15 +90,31 @@ struct GBufferReader::Impl {
                         path.string(), place.name));
     }
 
-    bool sample_packed_normals() const;
+    bool sample_packed_normals(NormalKind kind) const;
+    io::ObjectStorage sample_objects() const;
+    void finish_normals(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
 };
 
-bool GBufferReader::Impl::sample_packed_normals() const {
-    // Only Unreal is known to pack normals. Of other known writers, normals within [0,1] are a coincidence.
-    if (!roles.has_role("normal") || (roles.writer != Writer::unreal && roles.writer != Writer::plain)) return false;
+io::ObjectStorage GBufferReader::Impl::sample_objects() const {
+    const auto* object = place("object");
+    if (object == nullptr) return io::ObjectStorage::single;
+    if (object->whole_numbers) return io::ObjectStorage::whole;
+    std::vector<float> sample;
+    for (const std::uint32_t tenth : sampled_tenths) {
+        const auto row = tenth * image.size.height / 10;
+        sample.resize(sample.size() + image.size.width);
+        const io::WantedChannel wanted{*object, sample.data() + sample.size() - image.size.width};
+        reader->read(row, row + 1, {&wanted, 1});
+    }
+    return io::object_storage(sample);
+}
+
+bool GBufferReader::Impl::sample_packed_normals(NormalKind kind) const {
+    if (kind == NormalKind::packed) return true;
+    if (!roles.has_role("normal") || kind == NormalKind::sign) return false;
     const std::size_t width = image.size.width;
     std::vector<float> planes[3];
-    for (const std::uint32_t tenth : {5u, 3u, 7u, 1u, 9u}) {  // the first row nearly always decides; each costs a block
+    for (const std::uint32_t tenth : sampled_tenths) {  // the first row nearly always decides
         const auto row = tenth * image.size.height / 10;
         std::vector<io::WantedChannel> wanted;
         std::span<const float> read[3];
@@ -103,17 +135,17 @@ GBufferReader::GBufferReader(std::filesystem::path file, const GBufferSource& so
     : impl_(std::make_unique<Impl>()) {
     io::OpenImage opened(file);
     impl_->path = std::move(file);
-    impl_->image = io::list_parts(opened.input(), impl_->path);
+    impl_->image = io::list_parts(opened.input(), impl_->path, {source.view, source.overscan});
     for (const auto& place : impl_->image.channels) {
         impl_->channels.push_back(place.name);
         impl_->places[place.name] = &place;
     }
-    impl_->roles = detect(impl_->path, impl_->channels, source);
+    impl_->roles = detect(impl_->path, impl_->channels, source, metadata());
     impl_->reader = std::make_unique<io::BandReader>(std::move(opened), impl_->image.size, impl_->image.parts);
     if (impl_->roles.cryptomatte_ranks > 0) {
         impl_->cryptomatte = CryptomatteManifest(metadata(), impl_->roles.cryptomatte_layer, impl_->path);
     }
-    impl_->packed_normals = impl_->sample_packed_normals();
+    impl_->packed_normals = impl_->sample_packed_normals(source.normals);
 }
 
 GBufferReader::~GBufferReader() = default;
@@ -122,10 +154,29 @@ GBufferReader& GBufferReader::operator=(GBufferReader&&) noexcept = default;
 
 const std::filesystem::path& GBufferReader::path() const { return impl_->path; }
 Size GBufferReader::size() const { return impl_->image.size; }
+const FrameWindow& GBufferReader::window() const { return impl_->image.window; }
 int GBufferReader::parts() const { return static_cast<int>(impl_->image.parts.size()); }
 const std::vector<std::string>& GBufferReader::channels() const { return impl_->channels; }
 const RoleMap& GBufferReader::roles() const { return impl_->roles; }
 bool GBufferReader::packed_normals() const { return impl_->packed_normals; }
+const std::vector<std::string>& GBufferReader::views() const { return impl_->image.views; }
+const std::string& GBufferReader::view() const { return impl_->image.view; }
+bool GBufferReader::normals_are_in_world_space() const {
+    return !impl_->roles.camera_space_normals || impl_->view.has_value();
+}
+void GBufferReader::turn_normals(const Mat4& view) { impl_->view = view; }
+double GBufferReader::pixel_aspect() const {
+    const double aspect = metadata().number("PixelAspectRatio").value_or(1);
+    return aspect > 0 && std::isfinite(aspect) ? aspect : 1;
+}
+ChannelType GBufferReader::channel_type(std::string_view channel) const {
+    const auto& place = *impl_->places.at(std::string(channel));
+    return place.whole_numbers ? ChannelType::whole : place.half ? ChannelType::half : ChannelType::single;
+}
+io::ObjectStorage GBufferReader::object_storage() const {
+    if (!impl_->objects) impl_->objects = impl_->sample_objects();
+    return *impl_->objects;
+}
 const Metadata& GBufferReader::metadata() const { return impl_->image.metadata; }
 const CryptomatteManifest& GBufferReader::cryptomatte() const { return impl_->cryptomatte; }
 bool GBufferReader::has_plane(std::string_view plane) const { return impl_->place(plane) != nullptr; }
@@ -152,21 +203,34 @@ void GBufferReader::read_rows(std::uint32_t row_begin, std::uint32_t row_end, st
     }
     require(planes);
     std::vector<io::WantedChannel> wanted;
-    for (std::size_t i = 0; i < planes.size(); ++i) wanted.push_back({*impl_->place(planes[i]), out[i]});
+    for (std::size_t i = 0; i < planes.size(); ++i)
+        wanted.push_back(
+            {*impl_->place(planes[i]), out[i], planes[i] == "object" || planes[i].starts_with(bits_of_channel)});
     impl_->reader->read(row_begin, row_end, wanted);
-    if (!impl_->packed_normals) return;
-
     const std::size_t count = std::size_t{row_end - row_begin} * size().width;
+    impl_->finish_normals(planes, out, count);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const std::span<float> values(out[i], count);
+        if (planes[i] == "object") io::label_objects(values, object_storage());
+        if (impl_->roles.v_down) turn_v(planes[i], values);
+    }
+}
+
+void GBufferReader::Impl::finish_normals(std::span<const std::string> planes, std::span<float* const> out,
+                                         std::size_t count) const {
+    const bool turned = roles.camera_space_normals && view;
+    if (!packed_normals && !turned) return;
     std::span<float> axes[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto found = std::ranges::find(planes, normal_planes[axis]);
         if (found != planes.end()) axes[axis] = {out[static_cast<std::size_t>(found - planes.begin())], count};
     }
-    const auto given = std::ranges::count_if(axes, [](const auto& axis) { return !axis.empty(); });
-    if (given != 0 && given != 3 && count != 0) {
-        throw Error(fmt::format("{}: packed normals can only be read as x, y and z together", path().string()));
+    const auto given = std::ranges::count_if(axes, [](const auto& axis) { return axis.data() != nullptr; });
+    if (given != 0 && given != 3) {
+        throw Error(fmt::format("{}: packed normals can only be read as x, y and z together", path.string()));
     }
-    if (given == 3) io::unpack_normals(axes[0], axes[1], axes[2]);
+    if (given == 3 && packed_normals) io::unpack_normals(axes[0], axes[1], axes[2]);
+    if (given == 3 && turned) io::turn_normals(*view, axes[0], axes[1], axes[2]);
 }
 
 }  // namespace wrinkle

@@ -9,18 +9,24 @@
 #include <vector>
 
 #include "io/cryptomatte.h"
+#include "io/frame_window.h"
 #include "io/gbuffer_roles.h"
 #include "io/metadata.h"
+#include "io/object_ids.h"
 #include "wrinkle/camera.h"
 #include "wrinkle/scene.h"
 
 namespace wrinkle {
 
+/// How a channel's numbers are stored.
+enum class ChannelType { half, single, whole };
+
 /// The planes of one rendered frame, read in bands of rows.
 ///
-/// A file may have several parts, be tiled, half or float. The frame is its display window; pixels outside of the data
-/// window are zero, which is background. To be used by one thread at a time; decompression uses several by itself,
-/// which works best with bands of 64 rows or more that begin at multiples of 16 (the ZIP block).
+/// A file may have several parts, be tiled, half or float. The frame is its display window, and with source.overscan
+/// what data windows hold around it; pixels outside of a data window are zero, which is background. To be used by one
+/// thread at a time; decompression uses several by itself, which works best with bands of 64 rows or more that begin at
+/// multiples of 16 (the ZIP block).
 class GBufferReader {
 public:
     /// Opens `file` (the frame number already filled in); `source` gives role overrides and the depth's kind.
@@ -31,14 +37,26 @@ public:
     GBufferReader& operator=(GBufferReader&&) noexcept;
 
     const std::filesystem::path& path() const;
-    Size size() const;
+    Size size() const;  ///< the display window, and the overscan that is wanted
+    const FrameWindow& window() const;
     int parts() const;
     const std::vector<std::string>& channels() const;  ///< of all parts; channel X of a part named N is "N.X"
     const RoleMap& roles() const;                      ///< depth kind included: planar or ray
     bool packed_normals() const;                       ///< the file holds (n + 1) / 2; read_rows() undoes it
-    const Metadata& metadata() const;                  ///< of all parts; where several have a value, the first part's
+    const std::vector<std::string>& views() const;     ///< of a stereo file; the others' channels count as not there
+    const std::string& view() const;                   ///< the one that is read
+    double pixel_aspect() const;                       ///< width of a pixel by its height
+    ChannelType channel_type(std::string_view channel) const;
+    io::ObjectStorage object_storage() const;  ///< of the object role; the first call reads a few rows
+    const Metadata& metadata() const;          ///< of all parts; where several have a value, the first part's
 
-    bool has_plane(std::string_view plane) const;  ///< "normal.x", "channel:NAME"
+    /// Gives the world-to-camera matrix by which read_rows() turns camera-space normals into world space. Until then
+    /// they are read as they are.
+    void turn_normals(const Mat4& view);
+    bool normals_are_in_world_space() const;
+
+    /// "normal.x", "channel:NAME"; "bits:NAME" is a channel of integers, whose floats hold the integers' bits
+    bool has_plane(std::string_view plane) const;
     bool has_role(std::string_view role) const { return roles().has_role(role); }
     std::vector<std::string> planes() const;  ///< the planes of all roles that were found
 
@@ -48,7 +66,8 @@ public:
     const CryptomatteManifest& cryptomatte() const;  ///< of the cryptomatte that has the role; may be empty
 
     /// Reads rows [row_begin, row_end), counted from the top, of planes[i] into out[i], which holds
-    /// (row_end - row_begin) * width floats. Throws Error when a row cannot be read.
+    /// (row_end - row_begin) * width floats. Roles come in wrinkle's form: normals unpacked and in world space, object
+    /// numbers as labels (io/object_ids.h), v upwards. Throws Error when a row cannot be read.
     void read_rows(std::uint32_t row_begin, std::uint32_t row_end, std::span<const std::string> planes,
                    std::span<float* const> out) const;
 

@@ -65,21 +65,51 @@ void assign(RoleMap& map, const Role& role, const std::vector<std::string>& chan
     for (std::size_t i = 0; i < channels.size(); ++i) map.channel_of[role.planes[i]] = channels[i];
 }
 
-/// The view layer in which most roles are found; of several, the first.
-std::string choose_prefix(const ChannelIndex& index) {
-    std::string best;
-    std::size_t most = 0;
+/// A view layer, and how many roles it has.
+struct ViewLayer {
+    std::string prefix;
+    std::size_t roles = 0;
+    bool normal = false;
+};
+
+std::vector<ViewLayer> view_layers(const ChannelIndex& index) {
+    std::vector<ViewLayer> found;
     std::set<std::string> seen;
     for (const auto& layer : index.layers) {
-        const auto prefix = split_prefix(layer).first;
-        if (!seen.insert(prefix).second) continue;
-        std::size_t count = 0;
+        ViewLayer view{split_prefix(layer).first};
+        if (!seen.insert(view.prefix).second) continue;
         for (const auto& role : gbuffer_roles()) {
-            if (role.name != "cryptomatte") count += !find_role(index, role, prefix).empty();
+            if (role.name == "cryptomatte" || find_role(index, role, view.prefix).empty()) continue;
+            ++view.roles;
+            view.normal = view.normal || role.name == "normal";
         }
-        if (count > most) most = count, best = prefix;
+        found.push_back(std::move(view));
     }
-    return best;
+    return found;
+}
+
+/// The view layer that is wanted, else the one in which most roles are found.
+std::string choose_prefix(const ChannelIndex& index, const GBufferSource& source) {
+    const auto found = view_layers(index);
+    std::vector<std::string> names;
+    for (const auto& view : found) names.push_back(view.prefix);
+    if (!source.layer.empty()) {
+        if (std::ranges::find(names, source.layer) != names.end()) return source.layer;
+        std::erase(names, "");
+        throw Error(fmt::format("there is no view layer {}{}; channels found: {}", quote(source.layer),
+                                names.empty() ? "" : "; there are " + quote_list(names),
+                                io::describe_channels(index.channels)));
+    }
+    if (found.empty()) return "";
+    const auto best = std::ranges::max_element(found, {}, &ViewLayer::roles);  // of several, the first
+    // Layers of lights and the like also have a prefix, but no normals.
+    const auto rival = std::ranges::find_if(best + 1, found.end(), [&](const ViewLayer& view) {
+        return view.roles == best->roles && view.normal && best->normal;
+    });
+    if (rival != found.end() && !best->prefix.empty() && !rival->prefix.empty() && !source.roles.contains("normal"))
+        throw Error(fmt::format("the view layers {} and {} have the same passes; say which, as in [gbuffer] layer = {}",
+                                quote(best->prefix), quote(rival->prefix), quote(best->prefix)));
+    return best->roles == 0 ? "" : best->prefix;
 }
 
 /// In Mitsuba the user names the layers, and only the components' names are Mitsuba's own. A role is taken when exactly
@@ -102,8 +132,7 @@ void fill_mitsuba(RoleMap& map, const ChannelIndex& index) {
     take(ray, "depth"), take(uv, "uv"), take(object, "object");
 }
 
-void assign_cryptomatte(RoleMap& map, const ChannelIndex& index, const std::string& prefix) {
-    const auto found = io::find_cryptomattes(index);
+void assign_cryptomatte(RoleMap& map, const io::CryptomatteLayers& found, const std::string& prefix) {
     int best = -1;
     for (const auto& [stem, ranks] : found) {
         const auto [layer_prefix, base] = split_prefix(stem);
@@ -111,6 +140,14 @@ void assign_cryptomatte(RoleMap& map, const ChannelIndex& index, const std::stri
         const int score = contains_ignoring_case(base, "object") ? 2 : contains_ignoring_case(base, "asset");
         if (score > best) best = score, io::assign_ranks(map, stem, ranks);
     }
+}
+
+/// Whether the normals in use are known to be in camera space.
+bool in_camera_space(const RoleMap& map, NormalKind kind) {
+    const auto normal = map.channel_of.find("normal.x");
+    if (normal == map.channel_of.end() || kind != NormalKind::automatic) return kind == NormalKind::camera;
+    const auto base = split_prefix(io::split_channel(normal->second).layer).second;
+    return map.writer == Writer::vray && io::is_vray_camera_normal(io::plain_layer_name(base));
 }
 
 }  // namespace
@@ -143,25 +180,36 @@ bool RoleMap::has_role(std::string_view role) const {
            std::ranges::all_of(found->planes, [&](const std::string& plane) { return has_plane(plane); });
 }
 
-RoleMap detect_roles(std::span<const std::string> channels, const std::map<std::string, std::string>& overrides) {
+HeaderHints header_hints(const Metadata& header) {
+    HeaderHints hints;
+    for (const auto& name : header.names()) {
+        if (name.starts_with("cryptomatte/") && name.ends_with("/name"))
+            hints.cryptomattes.push_back(header.text(name).value_or(""));
+        hints.vray = hints.vray || name.starts_with("vrayInfo");
+    }
+    return hints;
+}
+
+RoleMap detect_roles(std::span<const std::string> channels, const GBufferSource& source, const HeaderHints& hints) {
     const ChannelIndex index(channels);
     RoleMap map;
-    map.writer = io::recognise_writer(channels);
-    const auto prefix = choose_prefix(index);
+    map.writer = hints.vray ? Writer::vray : io::recognise_writer(channels);
+    const auto prefix = choose_prefix(index, source);
     for (const auto& role : gbuffer_roles()) {
         if (role.name != "cryptomatte") assign(map, role, find_role(index, role, prefix));
     }
     if (map.writer == Writer::mitsuba) fill_mitsuba(map, index);
-    assign_cryptomatte(map, index, prefix);
-    io::apply_overrides(map, index, overrides);
+    const auto cryptomattes = io::find_cryptomattes(index, hints.cryptomattes);
+    assign_cryptomatte(map, cryptomattes, prefix);
+    io::apply_overrides(map, index, cryptomattes, source.roles);
     // What kind of depth and normals there are depends on the channels in use, so it is settled after the overrides.
     if (const auto depth = map.channel_of.find("depth"); depth != map.channel_of.end()) {
         const bool ray = map.writer == Writer::mitsuba && io::split_channel(depth->second).component == "T";
         map.depth = ray ? DepthKind::ray : DepthKind::planar;
     }
-    if (const auto normal = map.channel_of.find("normal.x"); normal != map.channel_of.end()) {
-        map.screen_space_normals = contains_ignoring_case(normal->second, "bump_normals");
-    }
+    if (source.depth != DepthKind::automatic) map.depth = source.depth;
+    map.camera_space_normals = in_camera_space(map, source.normals);
+    map.v_down = source.v == VDirection::automatic ? map.writer == Writer::mitsuba : source.v == VDirection::down;
     return map;
 }
 

@@ -51,10 +51,9 @@ std::vector<Window> windows(const std::string& name, Writer writer) {
 }
 
 void add_projection(std::vector<HeaderCamera>& found, const std::string& name, const Mat4& world_to_ndc, bool rows,
-                    bool camera_space, Size size, Writer writer) {
+                    bool camera_space, double aspect, Writer writer) {
     for (const auto window : windows(name, writer)) {
-        const auto camera =
-            camera_of_clip(to_clip(world_to_ndc, window, static_cast<double>(size.width) / size.height));
+        const auto camera = camera_of_clip(to_clip(world_to_ndc, window, aspect));
         if (!camera) continue;
         found.push_back(
             {*camera,
@@ -64,13 +63,13 @@ void add_projection(std::vector<HeaderCamera>& found, const std::string& name, c
     }
 }
 
-void add_projections(std::vector<HeaderCamera>& found, const Metadata& header, Size size, Writer writer) {
+void add_projections(std::vector<HeaderCamera>& found, const Metadata& header, double aspect, Writer writer) {
     const bool usual_rows = writer != Writer::pbrt;
     for (const std::string name : {"worldToNDC", "worldToScreen"}) {
         const auto matrix = header.matrix(name);
         if (!matrix) continue;
         for (const bool rows : {usual_rows, !usual_rows}) {
-            add_projection(found, name, on_columns(*matrix, rows), rows, false, size, writer);
+            add_projection(found, name, on_columns(*matrix, rows), rows, false, aspect, writer);
         }
     }
     // pbrt's positions and normals are in camera space unless told otherwise.
@@ -79,7 +78,8 @@ void add_projections(std::vector<HeaderCamera>& found, const Metadata& header, S
     for (const bool rows : {usual_rows, !usual_rows}) {
         const auto back = inverse_or_nothing(on_columns(*world_to_camera, rows));
         if (!back) continue;
-        add_projection(found, "worldToNDC", multiply(on_columns(*world_to_ndc, rows), *back), rows, true, size, writer);
+        add_projection(found, "worldToNDC", multiply(on_columns(*world_to_ndc, rows), *back), rows, true, aspect,
+                       writer);
     }
 }
 
@@ -93,10 +93,10 @@ std::optional<double> field_of_view(const Metadata& header) {
     return std::nullopt;
 }
 
-void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, Size size) {
+void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, double aspect) {
     const auto fov = field_of_view(header);
     if (!fov) return;
-    const double aspect = static_cast<double>(size.width) / size.height, focal = 1 / std::tan(*fov / 2);
+    const double focal = 1 / std::tan(*fov / 2);
     for (const std::string name : {"worldToCamera", "cameraTransform"}) {
         const auto matrix = header.matrix(name);
         if (!matrix) continue;
@@ -127,10 +127,10 @@ void add_placements(std::vector<HeaderCamera>& found, const Metadata& header, Si
 
 /// How unusual a camera is, to choose one when there are no positions to check it with: how far its pixels are from
 /// square, its axis from the picture's centre, its view from the header's worldToCamera. 0 for an ordinary camera.
-double oddness(const Camera& camera, const Metadata& header, Size size) {
+double oddness(const Camera& camera, const Metadata& header, double aspect) {
     const auto& p = camera.proj;
-    double odd = std::abs(std::log(p[0][0] * size.width / (p[1][1] * size.height))) + std::abs(p[0][2]) +
-                 std::abs(p[1][2]) + std::abs(p[1][0] / p[1][1]);
+    double odd = std::abs(std::log(p[0][0] * aspect / p[1][1])) + std::abs(p[0][2]) + std::abs(p[1][2]) +
+                 std::abs(p[1][0] / p[1][1]);
     if (const auto matrix = header.matrix("worldToCamera")) {
         double best = std::numeric_limits<double>::infinity();
         for (const bool rows : {true, false}) {
@@ -148,21 +148,22 @@ double oddness(const Camera& camera, const Metadata& header, Size size) {
 
 }  // namespace
 
-std::vector<HeaderCamera> header_cameras(const Metadata& header, Size size, Writer writer) {
+std::vector<HeaderCamera> header_cameras(const Metadata& header, double aspect, Writer writer) {
     std::vector<HeaderCamera> found;
-    add_projections(found, header, size, writer);
-    if (found.empty()) add_placements(found, header, size);
+    add_projections(found, header, aspect, writer);
+    if (found.empty()) add_placements(found, header, aspect);
     return found;
 }
 
-std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, Writer writer,
+std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, double pixel_aspect, Writer writer,
                                                std::span<const PositionSample> samples) {
+    const double aspect = pixel_aspect * size.width / size.height;
     // A less usual reading must be better than this share of the best one, and by more than so many pixels.
     constexpr double clearly = 0.9, noise = 1e-3;
     std::optional<HeaderCamera> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& candidate : header_cameras(header, size, writer)) {
-        const double misfit = samples.empty() ? oddness(candidate.camera, header, size)
+    for (const auto& candidate : header_cameras(header, aspect, writer)) {
+        const double misfit = samples.empty() ? oddness(candidate.camera, header, aspect)
                                               : reprojection_residual(candidate.camera, size, samples).median;
         if (best && !(misfit < clearly * least && misfit < least - noise)) continue;
         best = candidate;

@@ -19,13 +19,13 @@ struct HeaderCamera {
 };
 
 /// Every reading of worldToNDC, worldToScreen, worldToCamera and cameraTransform that makes a camera, the most usual
-/// one first. Writers differ: some transpose these matrices, let y point up, keep the aspect of the screen window, or
-/// write positions in camera space.
-std::vector<HeaderCamera> header_cameras(const Metadata& header, Size size, Writer writer);
+/// one first, for a picture of that aspect. Writers differ: some transpose these matrices, let y point up, keep the
+/// aspect of the screen window, or write positions in camera space.
+std::vector<HeaderCamera> header_cameras(const Metadata& header, double aspect, Writer writer);
 
 /// The reading that fits the positions best. Without positions, the one with the squarest pixels and the most centred
 /// axis that agrees best with worldToCamera. Nothing when the header has no camera.
-std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, Writer writer,
+std::optional<HeaderCamera> best_header_camera(const Metadata& header, Size size, double pixel_aspect, Writer writer,
                                                std::span<const PositionSample> samples);
 
 /// The camera of a world-to-clip matrix; nothing when it is no camera's. Only the rows x, y and w are used: the depth

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -37,6 +38,34 @@ void check_size(const OIIO::ImageSpec& spec, const InputFile& file) {
                               file.size(), kDeflate * sizeof(float)});
 }
 
+std::uint32_t word_of(const std::array<unsigned char, 148>& header, std::size_t at) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 4; i-- > 0;) word = word << 8 | header[at + i];
+    return word;
+}
+
+/// Throws Error for a DDS file that cannot be read as it is. What is missing of one would be read as 0.
+void check_dds(const InputFile& file) {
+    std::array<unsigned char, 148> header{};
+    if (file.read_at(0, header.data(), header.size()) < 128) return;
+    constexpr std::size_t height_at = 12, width_at = 16, flags_at = 80, code_at = 84, bits_at = 88, dxgi_at = 128;
+    constexpr std::uint32_t has_code = 4;
+    const std::uint64_t width = word_of(header, width_at), height = word_of(header, height_at);
+    const std::string_view code(reinterpret_cast<const char*>(header.data()) + code_at, 4);
+    const bool coded = (word_of(header, flags_at) & has_code) != 0;
+    if (coded && code == "DX10")
+        throw Error(
+            fmt::format("{}: a DDS of the kind DX10 (DXGI format {}), which OpenImageIO does not read; save it as "
+                        "PNG, TIFF or EXR, or as a DDS without that header",
+                        file.name(), word_of(header, dxgi_at)));
+    const bool small_blocks = code == "DXT1" || code == "ATI1" || code == "BC4U" || code == "BC4S";
+    const std::uint64_t bytes = coded ? (width + 3) / 4 * ((height + 3) / 4) * (small_blocks ? 8 : 16)
+                                      : width * height * word_of(header, bits_at) / 8;
+    if (file.size() < 128 + bytes)
+        throw Error(fmt::format("{}: the DDS is truncated: {} bytes of at least {}; was it still being written?",
+                                file.name(), file.size(), 128 + bytes));
+}
+
 }  // namespace
 
 OpenImage::OpenImage(const std::filesystem::path& file, const OIIO::ImageSpec& options)
@@ -57,6 +86,7 @@ OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpe
     } else {
         proxy_ = std::make_unique<InputProxy>(file_);
     }
+    if (format == "dds") check_dds(*file_);
     OIIO::geterror();  // forgets messages of earlier calls
     input_ = OIIO::ImageInput::create(std::string(format));
     OIIO::ImageSpec spec, with_proxy = options;
@@ -64,6 +94,10 @@ OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpe
     with_proxy.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!input_ || !input_->open(name, spec, with_proxy)) {
         const std::string why = input_ ? input_->geterror() : OIIO::geterror();
+        if (why.find("Subsampled") != std::string::npos)
+            throw Error(
+                fmt::format("{}: luminance and subsampled chroma, which OpenImageIO does not read; save it as RGB{}",
+                            name, reason(why)));
         throw Error(fmt::format("{}: not an image, or damaged{}", name, reason(why)));
     }
     if (format != "openexr") check_size(spec, *file_);

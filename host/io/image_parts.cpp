@@ -4,18 +4,30 @@
 #include <algorithm>
 #include <set>
 
+#include "base/names.h"
 #include "io/metadata_data.h"
+#include "io/views.h"
+#include "io/writer_names.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
 namespace {
 
+/// Whether a name is that of a component, so that its layer has to come from elsewhere.
+bool is_component(const std::string& channel) {
+    static const std::set<std::string> words{"red", "green", "blue", "alpha"};
+    return channel.size() == 1 || words.contains(lower(channel));
+}
+
 /// Some writers of multi-part files put the layer's name into the part's: part "N" has channels X, Y, Z, and X becomes
-/// "N.X" here. R, G, B and A of the first part are the picture and keep their names.
-std::string full_name(const std::string& channel, const std::string& part_name, int part, bool several) {
-    if (!several || part_name.empty() || channel.size() > 1) return channel;
-    const bool picture = part == 0 && std::string_view("RGBA").find(channel) != std::string_view::npos;
-    return picture ? channel : part_name + "." + channel;
+/// "N.X" here. The picture's channels keep their names: those of a part called rgba, or of the first part, unless that
+/// is called as the layer of something else ("N" with R, G and B).
+std::string full_name(const std::string& channel, const std::string& layer, bool first) {
+    if (layer.empty() || !is_component(channel)) return channel;
+    const auto plain = plain_layer_name(layer.substr(layer.rfind('.') + 1));
+    const auto role = role_of_layer(plain);
+    const bool picture = plain == "rgba" || plain == "rgb" || (first && (role.empty() || role == "beauty"));
+    return picture ? channel : layer + "." + channel;
 }
 
 Part geometry(const OIIO::ImageSpec& spec) {
@@ -53,27 +65,44 @@ void add_attributes(OIIO::ParamValueList& list, const OIIO::ParamValueList& foun
 
 }  // namespace
 
-ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file) {
+ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file, const FrameExtent& extent) {
+    std::vector<OIIO::ImageSpec> specs;
+    for (int part = 0; input.seek_subimage(part, 0); ++part) specs.push_back(input.spec());
+    input.geterror();  // forgets that the loop sought a part beyond the last
+    const Views views = find_views(specs, extent.view, file);
     ImageParts result;
+    result.views = views.names;
+    result.view = views.chosen;
     std::set<std::string> taken;
     bool deep = false;
-    const bool several = input.seek_subimage(1, 0);
-    for (int part = 0; input.seek_subimage(part, 0); ++part) {
-        const auto& spec = input.spec();
+    Size display;
+    int left = 0, top = 0, right = 0, bottom = 0;  // of the frame, seen from the display window's first pixel
+    for (std::size_t p = 0; p < specs.size(); ++p) {
+        const auto& spec = specs[p];
+        const int part = static_cast<int>(p);
         result.parts.push_back(geometry(spec));
         if (spec.deep) {
             deep = true;
             continue;
         }
-        if (result.channels.empty()) {
-            result.size = {static_cast<std::uint32_t>(spec.full_width), static_cast<std::uint32_t>(spec.full_height)};
-        }
-        check(spec, result.size, part, file);
-        const auto part_name = spec.get_string_attribute("oiio:subimagename").operator std::string();
+        const std::string part_name = spec.get_string_attribute("oiio:subimagename");
+        const auto layer = specs.size() > 1 ? views.without_view(p, part_name) : "";
         for (int i = 0; i < spec.nchannels; ++i) {
             const auto format = spec.channelformat(i);
             const auto& stored_name = spec.channelnames[static_cast<std::size_t>(i)];
-            auto name = full_name(stored_name, part_name, part, several);
+            auto name = stored_name;
+            if (!views.take(p, name)) continue;
+            if (result.channels.empty()) {
+                display = {static_cast<std::uint32_t>(spec.full_width), static_cast<std::uint32_t>(spec.full_height)};
+                right = spec.full_width, bottom = spec.full_height;
+            }
+            check(spec, display, part, file);
+            if (extent.overscan) {
+                left = std::min(left, spec.x - spec.full_x), top = std::min(top, spec.y - spec.full_y);
+                right = std::max(right, spec.x - spec.full_x + spec.width);
+                bottom = std::max(bottom, spec.y - spec.full_y + spec.height);
+            }
+            name = full_name(name, layer, result.channels.empty() || result.channels.front().part == part);
             if (taken.contains(name)) name = fmt::format("{}.{}", part_name.empty() ? "part" : part_name, name);
             if (!taken.insert(name).second) continue;
             result.channels.push_back(
@@ -81,12 +110,18 @@ ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file
         }
         add_attributes(result.metadata.data().list, spec.extra_attribs);
     }
-    input.geterror();  // forgets that the loop sought a part beyond the last
     if (result.channels.empty()) {
         throw Error(fmt::format(
             "{}: {}", file.string(),
             deep ? "a deep image; flatten it first, a G-buffer has one sample per pixel" : "has no channels"));
     }
+    constexpr int longest_side = 1 << 17;
+    if (right - left > longest_side || bottom - top > longest_side)
+        throw Error(fmt::format("{}: data windows of {}x{} pixels; the header is damaged", file.string(), right - left,
+                                bottom - top));
+    result.size = {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)};
+    result.window = {left, top, display};
+    for (auto& part : result.parts) part.x -= left, part.y -= top;
     return result;
 }
 

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/frame_window.h"
 #include "io/metadata.h"
 #include "wrinkle/camera.h"
 
@@ -25,7 +27,11 @@ float png_value(float value, PngEncoding encoding, float factor);
 struct ImageOptions {
     bool half = false;           ///< EXR: 16-bit floats; finite values stay finite, cryptomatte channels stay 32-bit
     std::set<std::string> full;  ///< further channels that stay 32-bit
-    Metadata metadata;           ///< EXR: attributes for the header; those that say how a file is stored are left out
+    std::set<std::string>
+        whole{};  ///< EXR: channels whose floats hold the bits of unsigned integers, to be stored as such
+    /// Where the pixels lie; nothing: they are the picture. EXR files hold all of them, PNG the display window.
+    std::optional<FrameWindow> window{};
+    Metadata metadata;  ///< EXR: attributes for the header; those that say how a file is stored are left out
     PngEncoding png = PngEncoding::srgb;
     double exposure = 0;  ///< stops; PngEncoding::srgb
 };

@@ -13,7 +13,7 @@
 namespace wrinkle {
 namespace {
 
-constexpr std::uint32_t band_rows = 128;
+constexpr std::uint32_t band_rows = 16;  // a block of ZIP
 
 /// The planes whose range is reported. Of a cryptomatte that is the coverage: ids are bit patterns, not numbers.
 std::vector<std::string> measured_planes(const Role& role) {
@@ -28,7 +28,23 @@ bool is_valid(const std::string& role, std::span<const float> components) {
     return true;
 }
 
-std::vector<RoleStats> measure(const GBufferReader& reader) {
+/// The first rows of the bands that are measured: all of them, or as many, spread evenly, as take no longer than a
+/// blink.
+std::vector<std::uint32_t> measured_bands(const GBufferReader& reader) {
+    constexpr double most_bytes = 64e6;  // uncompressed, as blocks hold all channels of their rows
+    const auto [width, height] = reader.size();
+    double bytes = 0;
+    for (const auto& channel : reader.channels())
+        bytes += reader.channel_type(channel) == ChannelType::half ? 2.0 : 4.0;
+    const std::uint32_t bands = (height + band_rows - 1) / band_rows;
+    const double share = most_bytes / (bytes * width * height);
+    const auto wanted = static_cast<std::uint32_t>(std::clamp(share * bands, 1.0, double(bands)));
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < wanted; ++i) rows.push_back((2 * i + 1) * bands / (2 * wanted) * band_rows);
+    return rows;
+}
+
+std::vector<RoleStats> measure(const GBufferReader& reader, std::uint64_t& measured) {
     std::vector<RoleStats> stats;
     std::vector<std::string> planes;
     std::vector<std::size_t> counts;  // how many planes each role has
@@ -36,19 +52,21 @@ std::vector<RoleStats> measure(const GBufferReader& reader) {
         if (!reader.has_role(role.name)) continue;
         const auto measured = measured_planes(role);
         RoleStats entry{
-            role.name, {}, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0};
+            role.name, {}, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0, 0};
         for (const auto& plane : role.planes) entry.channels.push_back(reader.roles().channel_of.find(plane)->second);
         stats.push_back(std::move(entry));
         planes.insert(planes.end(), measured.begin(), measured.end());
         counts.push_back(measured.size());
     }
     const auto [width, height] = reader.size();
+    const bool whole_objects = reader.object_storage() != io::ObjectStorage::single;
     std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{band_rows} * width));
     std::vector<float*> out;
     for (auto& plane : values) out.push_back(plane.data());
-    for (std::uint32_t row = 0; row < height; row += band_rows) {
+    for (const std::uint32_t row : measured_bands(reader)) {
         const auto end = std::min(row + band_rows, height);
         reader.read_rows(row, end, planes, out);
+        measured += std::uint64_t{end - row} * width;
         std::size_t first = 0;
         for (std::size_t r = 0; r < stats.size(); first += counts[r++]) {
             float components[3];
@@ -58,6 +76,10 @@ std::vector<RoleStats> measure(const GBufferReader& reader) {
                 if (!is_valid(stats[r].role, pixel)) {
                     ++stats[r].invalid;
                     continue;
+                }
+                if (stats[r].role == "object") {
+                    stats[r].mixed += whole_objects ? 0 : io::is_mixed_object(components[0]);
+                    if (whole_objects) components[0] = static_cast<float>(io::object_number(components[0]));
                 }
                 const auto [low, high] = std::ranges::minmax(pixel);
                 stats[r].min = std::min<double>(stats[r].min, low);
@@ -71,23 +93,6 @@ std::vector<RoleStats> measure(const GBufferReader& reader) {
     return stats;
 }
 
-/// Looks for a camera when none was named: in a file beside the frame, else in the frame's header.
-void find_camera(GBufferInfo& info, const GBufferReader& reader) {
-    CameraSource source;
-    for (auto beside : {info.file.string() + ".camera.json",
-                        std::filesystem::path(info.file).replace_extension().string() + ".camera.json"}) {
-        std::error_code code;
-        if (std::filesystem::exists(beside, code)) {
-            source.file = beside;
-            break;
-        }
-    }
-    source.exr = source.file.empty();
-    try {
-        info.camera = read_frame_camera(source, reader);
-    } catch (const Error& error) { info.camera_problem = error.what(); }
-}
-
 }  // namespace
 
 GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraSource>& camera, int frame) {
@@ -98,13 +103,20 @@ GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraS
     info.size = reader.size();
     info.parts = reader.parts();
     info.channels = reader.channels();
+    for (const auto& channel : info.channels) info.types.push_back(reader.channel_type(channel));
+    info.views = reader.views();
+    info.view = reader.view();
     info.packed_normals = reader.packed_normals();
-    info.stats = measure(reader);
+    info.objects = reader.object_storage();
+    info.stats = measure(reader, info.measured);
     info.cryptomatte_names = reader.cryptomatte().names();
-    if (camera) {
-        info.camera = read_frame_camera(*camera, reader, frame);
-    } else {
-        find_camera(info, reader);
+    const CameraSource wanted = camera.value_or(CameraSource{});
+    try {
+        info.camera = read_frame_camera(wanted, reader, frame);
+        check_residual(*info.camera, wanted.max_residual, reader);
+    } catch (const Error& error) {
+        if (camera && !info.camera) throw;
+        info.camera_problem = error.what();
     }
     return info;
 }

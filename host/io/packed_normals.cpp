@@ -37,6 +37,16 @@ bool looks_packed(std::span<const float> x, std::span<const float> y, std::span<
     return !raw.empty() && median(unpacked) < unit_length && median(raw) > unit_length;
 }
 
+void turn_normals(const Mat4& view, std::span<float> x, std::span<float> y, std::span<float> z) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double n[3] = {x[i], y[i], z[i]};
+        const auto world = [&](std::size_t k) {  // the view is rigid: its inverse is its transpose
+            return static_cast<float>(view[0][k] * n[0] + view[1][k] * n[1] + view[2][k] * n[2]);
+        };
+        x[i] = world(0), y[i] = world(1), z[i] = world(2);
+    }
+}
+
 void unpack_normals(std::span<float> x, std::span<float> y, std::span<float> z) {
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (x[i] == 0 && y[i] == 0 && z[i] == 0) continue;

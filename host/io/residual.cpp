@@ -49,8 +49,8 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
         const auto row = middle - middle % 2, row_end = std::min(row + 2, height);
         reader.read_rows(row, row_end, planes, out);
         for (std::uint32_t pixel = step / 2; pixel < (row_end - row) * width; pixel += step) {
-            const PositionSample sample{pixel % width + 0.5,
-                                        row + pixel / width + 0.5,
+            const PositionSample sample{pixel % width + 0.5 + reader.window().x,
+                                        row + pixel / width + 0.5 + reader.window().y,
                                         {values[0][pixel], values[1][pixel], values[2][pixel]},
                                         with_depth ? values.back()[pixel] : std::numeric_limits<double>::quiet_NaN()};
             // In a sample a NaN depth means that the frame has no depth at all. A NaN in the plane is a hole: no

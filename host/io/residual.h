@@ -13,7 +13,7 @@ namespace wrinkle {
 
 /// A pixel with its position in the world, from the frame's position pass.
 struct PositionSample {
-    double x = 0, y = 0;  ///< pixel centre
+    double x = 0, y = 0;  ///< pixel centre, seen from the display window's first pixel
     Vec3 position{};      ///< world
     double depth = 0;     ///< of the depth role; NaN without one
 };

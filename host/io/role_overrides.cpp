@@ -30,9 +30,10 @@ void erase_role(RoleMap& map, const Role& role) {
     if (role.name == "cryptomatte") assign_ranks(map, "", {});
 }
 
-void override_cryptomatte(RoleMap& map, const ChannelIndex& index, const std::string& value) {
+void override_cryptomatte(RoleMap& map, const ChannelIndex& index, const CryptomatteLayers& cryptomattes,
+                          const std::string& value) {
     std::vector<std::string> stems;
-    for (const auto& [stem, ranks] : find_cryptomattes(index)) {
+    for (const auto& [stem, ranks] : cryptomattes) {
         if (stem == value || stem.ends_with("." + value)) return assign_ranks(map, stem, ranks);
         stems.push_back(stem);
     }
@@ -71,7 +72,8 @@ void assign_ranks(RoleMap& map, const std::string& layer, const std::vector<Cryp
     }
 }
 
-void apply_overrides(RoleMap& map, const ChannelIndex& index, const std::map<std::string, std::string>& overrides) {
+void apply_overrides(RoleMap& map, const ChannelIndex& index, const CryptomatteLayers& cryptomattes,
+                     const std::map<std::string, std::string>& overrides) {
     for (const auto& [key, value] : overrides) {
         std::vector<std::string> keys;
         const Role* whole = nullptr;
@@ -92,7 +94,7 @@ void apply_overrides(RoleMap& map, const ChannelIndex& index, const std::map<std
         } else if (value == "none") {
             erase_role(map, *whole);
         } else if (key == "cryptomatte") {
-            override_cryptomatte(map, index, value);
+            override_cryptomatte(map, index, cryptomattes, value);
         } else {
             override_role(map, index, *whole, value);
         }

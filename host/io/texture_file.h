@@ -26,7 +26,9 @@ enum class ImageUse {
     object_normal,  ///< object- or world-space normal: 3 channels, the vector itself
 };
 
-/// Loads a texture. Integer formats become [0,1] whatever their bits, float stays as it is; no colour conversion.
+/// Loads a texture: its display window, 0 where the file has no data. Of EXR files with several layers, the one that
+/// fits (io/texture_channels.h). Integer formats become [0,1] whatever their bits, float stays as it is; no colour
+/// conversion.
 ///
 /// Normals: when the file has two channels (x, y), the third becomes sqrt(1 - x^2 - y^2) [Mik20 eq. 16]. Float files
 /// that hold signed components are brought to [0,1], so that the caller unpacks all files alike.

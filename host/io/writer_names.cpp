@@ -12,11 +12,11 @@ namespace wrinkle::io {
 std::span<const RoleNames> role_names() {
     // RenderMan's __P and __Nn are missing here on purpose, as they are in camera space; so is Pref, the rest pose.
     static const std::vector<RoleNames> names{
-        {"position", {"position", "pworld", "worldposition", "worldpos", "pos", "pp", "p"}},
+        {"position", {"position", "pworld", "worldposition", "worldpos", "pos", "pp", "p", "hitp"}},
         {"normal",
-         {"shnormal", "shadingnormal", "ns", "normal", "worldnormal", "nworld", "normals", "nn", "sn", "n",
+         {"shnormal", "shadingnormal", "ns", "normal", "worldnormal", "nworld", "normals", "nn", "sn", "n", "hitn",
           "bumpnormals", "geonormal", "geometricnormal", "gn", "ng"}},
-        {"depth", {"depth", "worlddepth", "scenedepth", "zdepth", "z", "dd"}},
+        {"depth", {"depth", "worlddepth", "scenedepth", "zdepth", "z", "dd", "pz"}},
         {"uv", {"uv", "st", "uvs", "texcoord", "uvw"}},
         {"object", {"object", "indexob", "objectindex", "objectid", "shapeindex", "si", "id"}},
         {"duv_dx", {"duvdx"}},
@@ -31,6 +31,16 @@ std::span<const RoleNames> role_names() {
         {"beauty", {"beauty", "combined", "rgba", "rgb", "rgbcolor", "c", "ci", "image", "finalimage", ""}},
     };
     return names;
+}
+
+std::string_view role_of_layer(std::string_view plain_name) {
+    for (const auto& [role, layers] : role_names())
+        if (!plain_name.empty() && std::ranges::find(layers, plain_name) != layers.end()) return role;
+    return {};
+}
+
+bool is_vray_camera_normal(std::string_view plain_name) {
+    return plain_name == "normals" || plain_name == "bumpnormals";
 }
 
 std::string plain_layer_name(std::string_view base) {

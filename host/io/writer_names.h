@@ -18,6 +18,9 @@ struct RoleNames {
 };
 std::span<const RoleNames> role_names();
 
+/// The role that a layer of this plain name plays; empty: none.
+std::string_view role_of_layer(std::string_view plain_name);
+
 /// A layer's name in lower case, without "_", "-", blanks and prefixes of writers:
 /// "FinalImageMovieRenderQueue_WorldNormal" becomes "worldnormal", "__Nworld" becomes "nworld".
 std::string plain_layer_name(std::string_view base);
@@ -26,5 +29,8 @@ std::string plain_layer_name(std::string_view base);
 std::vector<std::vector<std::string_view>> component_sets(std::string_view role, std::size_t planes);
 
 Writer recognise_writer(std::span<const std::string> channels);
+
+/// V-Ray writes its normals in camera space, under these plain names; others' layers of the names are in world space.
+bool is_vray_camera_normal(std::string_view plain_name);
 
 }  // namespace wrinkle::io

@@ -21,7 +21,7 @@ std::string emit(LayerText& at) {
 }  // namespace
 
 const LayerKind& layers::constant() {
-    static constexpr LayerKind row{.name = ConstantLayer::kind, .read = read, .emit = emit};
+    static constexpr LayerKind row{.name = ConstantLayer::kind, .read = read, .emit = emit, .once_a_pixel = true};
     return row;
 }
 

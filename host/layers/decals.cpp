@@ -86,6 +86,8 @@ void read(scene::Table& table, Layer& layer) {
         each.rename(fmt::format("texture {} of {}", i, table.where()));
         each.require("file");
         each.read_file("file", texture.file);
+        scene::read_texture_choice(each, texture);
+        scene::refuse_tiles(each, "file", texture);
         if (table.visits()) scene::visit_texture(each, texture);
         each.choose("content", texture.content,
                     {{"height", Content::height}, {"normal", Content::normal}, {"slope", Content::slope}});

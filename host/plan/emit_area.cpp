@@ -9,11 +9,10 @@ namespace wrinkle {
 
 namespace {
 
-/// Text that sets how many points it takes, given the layers' text of `cells`.
-std::string count_text(const Emitter& emitter, const std::string& cells) {
-    if (emitter.scene.filter.taps == 1) return {};
-    return fmt::format("        wr_real cells = 0;\n{}        taps.count = wr_tap_count(taps, cells, {});\n", cells,
-                       emitter.scene.filter.taps);
+/// Text that sets how many points it takes.
+std::string count_text(const Emitter& emitter) {
+    const int most = emitter.scene.filter.taps;
+    return most == 1 ? "" : fmt::format("        taps.count = wr_tap_count(taps, {}, wanted);\n", most);
 }
 
 /// What layers add to, and the name of its mean over the area.
@@ -83,7 +82,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     Section area;
     area.title = "layers over the pixel's area";
     area.reads = {"valid", "p", "n", "dp_dx", "dp_dy"};
-    std::string masks, prepared, cells, bumps, wanted;
+    std::string masks, prepared, bumps, wanted;
     for (const Section& section : sections) {
         area.reads.insert(section.reads.begin(), section.reads.end());
         area.writes.insert(section.writes.begin(), section.writes.end());
@@ -93,7 +92,6 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
         masks += section.masks;
         wanted += (wanted.empty() ? "" : " | ") + section.wanted;
         prepared += section.prepared;
-        cells += section.cells;
         bumps += fmt::format("            // {}\n            {{\n{}            }}\n", section.kind, section.body);
     }
     area.reads.insert({"g", "dh_dp"});
@@ -119,7 +117,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     text = masks +
            fmt::format("        const wr_mask wanted = {};\n        if ({}) {{\n", wanted,
                        all || !emitter.options.skip ? "1" : "wr_any(wanted)") +
-           axis_text(emitter) + count_text(emitter, cells) + sums +
+           axis_text(emitter) + count_text(emitter) + sums +
            "        const wr_shares shares = wr_shares_of(taps);\n"
            "        const wr_vec3 centre = p, before = g, before_space = dh_dp;\n"
            "        const wr_vec3 share_dx = wr_scale(taps.along, shares.length), share_dy = taps.across;\n";

@@ -51,8 +51,6 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     if (!text.prepared.empty())
         section.prepared = fmt::format(
             "        if (wr_any(wanted_{0})) {{\n        wr_real m = mask_{0};\n{1}        }}\n", index, text.prepared);
-    section.cells = fmt::format("        {{\n{}        cells = wanted_{} ? fmax(cells, {}) : cells;\n        }}\n",
-                                text.details_before, index, text.details.empty() ? "(wr_real)(1e9f)" : text.details);
     section.body = fmt::format("        wr_real m = mask_{};\n", index) + section.body;
     return section;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/object_ids.h"
 #include "plan/section.h"
 
 namespace wrinkle {
@@ -71,9 +72,9 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
     if (mask.object) {
         emitter.need(who, {"object"});
         section.inputs.insert("object");
-        factor(
-            fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
-                        emitter.number(layer, "wr_mask object", [](const Layer& l) { return l.mask.object.value(); })));
+        factor(fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
+                           emitter.number(layer, "wr_mask object",
+                                          [](const Layer& l) { return io::object_label(l.mask.object.value()); })));
     }
     if (mask.cryptomatte) {
         emitter.need(who, {"crypto.id0", "crypto.coverage0"});
@@ -134,7 +135,9 @@ MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section)
     const std::string planes = mask_of_planes(emitter, layer, section);
     std::string text;
     if (mask.texture) {
-        const std::size_t number = emitter.texture({.file = mask.texture->file}, TexelKind::mask);
+        const std::size_t number = emitter.texture(
+            {.file = mask.texture->file, .layer = mask.texture->layer, .channels = mask.texture->channels},
+            TexelKind::mask);
         text += "        {\n" + emit_texcoord(
                                     emitter, layer,
                                     [](const Layer& l) -> const UvMapping& { return l.mask.texture.value().uv; },

@@ -67,11 +67,7 @@ std::string LayerText::once(const char* type, const char* name, const std::strin
 
 std::string LayerText::textured(const TextureUse& use, const char* declared) {
     std::string text = located(use, texel_kind(use));
-    if (over_area()) {
-        prepared += text;
-        details_before = "        wr_real m = 0;\n" + text;
-        details = "wr_texels_along(t, c, taps)";
-    }
+    if (over_area()) prepared += text;
     const std::string level = once("wr_real", "lod", lod("c.dx", "c.dy"));
     text += fmt::format("        {} = {};\n", declared, sample_text(use, "c.st", level));
     if (texel_kind(use) != TexelKind::vector && tells_spread()) {

@@ -15,9 +15,6 @@ struct LayerText {
     /// What does not differ between the points of a pixel's area: declarations, and the statements that set them, which
     /// stand before the first point and are skipped where no pixel wants the layer. Both empty where it has one point.
     std::string declared{}, prepared{};
-    /// Statements before, and the kernel text of, how many of the layer's finest details lie along one pixel of the
-    /// long axis of the pixel's area, which are all that more points can tell apart; empty where nobody knows.
-    std::string details_before{}, details{};
 
     /// Kernel text of a number of the layer, or of three as a vector; `what`: for people to read.
     std::string number(const std::string& what, std::function<double(const Layer&)> of) {

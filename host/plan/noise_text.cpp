@@ -168,10 +168,6 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
             fmt::format("        wr_walk walk = {{tap, taps.count - (wr_real)((WR_SCALAR)tap), {}, wanted_{}, {}}};\n",
                         space.step, at.emitter.index_of(at.layer), held);
         walk = ", &walk, &lost";
-        // Half a cell of the finest octave is told apart.
-        if (space.point == "p")
-            at.details = fmt::format("2 * eye_places[{}] * sqrt(wr_dot(taps.along, taps.along))",
-                                     4 * (first + static_cast<std::size_t>(l.octaves)) - 1);
     }
     text += fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {}{});\n", fractal_text(at, l, of, space.pairs),
                         points, at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active, walk);

@@ -32,7 +32,6 @@ struct Section {
     std::string wanted;    ///< of such a layer: the name of the lanes that want it
     std::string masks;     ///< ... what is declared for all points, and the mask by planes
     std::string prepared;  ///< ... and what is set then for all points
-    std::string cells;     ///< ... and what raises `cells` to how many of its finest details a pixel's long axis holds
 };
 
 /// What emitters share while a plan grows.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/vec.h"
+#include "io/object_ids.h"
 
 namespace wrinkle {
 
@@ -136,7 +137,7 @@ wr_projector masked_projector(const PlannedDecals& table, std::size_t index, dou
     wr_projector out = projector_constants(row, table.images[index], scale, eye);
     if (row.object) {
         out.mask = 1;
-        out.object = *row.object;
+        out.object = io::object_label(*row.object);
     }
     if (!row.cryptomatte.empty()) {
         out.mask = 2;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/cryptomatte.h"
+#include "io/object_ids.h"
 #include "resources/frame_constants.h"
 #include "wrinkle/error.h"
 
@@ -78,7 +79,7 @@ std::vector<double> projector_numbers(const Projector& row, const ProjectedImage
     if (row.object) {
         check_numbers("object", std::array{*row.object});
         out.mask = 1;
-        out.object = *row.object;
+        out.object = io::object_label(*row.object);
     } else if (!row.cryptomatte.empty()) {
         const std::uint32_t hash = object_hash(row.cryptomatte);
         out.mask = 2;

@@ -166,15 +166,17 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
-    std::map<std::pair<std::filesystem::path, Content>, Image> atlases;  // files of which only regions are used
+    std::vector<std::pair<TextureUse, Image>> atlases;  // files of which only regions are used
     const auto load = [&](const PlannedTexture& texture) {
         if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
             add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
         } else if (is_whole(texture)) {
             add_texture(heap, load_bump(texture.use), texture);
         } else {
-            const auto [atlas, is_new] = atlases.try_emplace({texture.use.file, texture.use.content});
-            if (is_new) atlas->second = load_bump(texture.use);
+            TextureUse read = texture.use;  // wrapping and green's direction come after reading
+            read.wrap = Wrap::repeat, read.y_down = false;
+            auto atlas = std::ranges::find(atlases, read, &std::pair<TextureUse, Image>::first);
+            if (atlas == atlases.end()) atlas = atlases.emplace(atlas, read, load_bump(read));
             add_texture(heap, atlas->second, texture);
         }
     };

@@ -66,9 +66,11 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     const Output& output = scene.output;
     const Metadata metadata = provenance(scene, reader, output.passthrough);
     const auto add = [&](const fs::path& name, std::vector<std::string> planes, std::vector<std::string> channels,
-                         PngEncoding encoding, std::set<std::string> full = {}) {
+                         PngEncoding encoding, std::set<std::string> full = {}, std::set<std::string> whole = {}) {
         ImageOptions options{.half = output.half,
                              .full = std::move(full),
+                             .whole = std::move(whole),
+                             .window = reader.window(),
                              .metadata = metadata,
                              .png = encoding,
                              .exposure = scene.lighting.exposure};
@@ -87,7 +89,8 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
         planes.push_back("out:condition");
         channels.push_back("condition");
     }
-    std::set<std::string> full;  // depths, positions and ids of the input do not survive as half
+    std::set<std::string> full;   // depths, positions and ids of the input do not survive as half
+    std::set<std::string> whole;  // integers, whose upper bits do not survive as floats
     if (output.passthrough) {
         std::set<std::string> replaced;  // the old normals too: who reads the file shall find the new ones
         for (const std::string& channel : channels) replaced.insert(lower(channel));
@@ -95,13 +98,15 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
             if (plane.starts_with("normal.")) replaced.insert(lower(channel));
         for (const std::string& channel : reader.channels()) {
             if (replaced.contains(lower(channel))) continue;
-            passed_.push_back("channel:" + channel);
+            const bool integers = reader.channel_type(channel) == ChannelType::whole;
+            passed_.push_back((integers ? "bits:" : "channel:") + channel);
+            if (integers) whole.insert(channel);
             planes.push_back(passed_.back());
             channels.push_back(channel);
             full.insert(channel);
         }
     }
-    add(file_name("normal", "exr", frame), planes, channels, PngEncoding::linear, std::move(full));
+    add(file_name("normal", "exr", frame), planes, channels, PngEncoding::linear, std::move(full), std::move(whole));
     if (output.png)
         add(file_name("normal", "png", frame), {"out:normal.x", "out:normal.y", "out:normal.z"}, {"R", "G", "B"},
             PngEncoding::normal);

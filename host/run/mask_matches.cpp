@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "layers/kinds.h"
 #include "plan/section.h"
@@ -14,6 +15,7 @@ namespace wrinkle {
 namespace {
 
 constexpr std::size_t kMostListed = 16;
+constexpr double kManyMixed = 0.005;  // of all pixels
 
 /// Both zeros are one label.
 std::uint32_t label_of(float value) {
@@ -42,14 +44,15 @@ MaskMatches::MaskMatches(const Scene& scene) {
     }
 }
 
-void MaskMatches::begin(const Frame& frame) {
+void MaskMatches::begin(const Frame& frame, io::ObjectStorage objects) {
+    storage_ = objects;
     objects_.unseen.clear(), ids_.unseen.clear();
     for (const auto& [name, id] : frame.cryptomatte) names_.emplace(id, name);
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
         const Wanted& wanted = wanted_[i];
         if (wanted.seen) continue;
         if (wanted.name.empty())
-            objects_.unseen[label_of(static_cast<float>(wanted.index))].push_back(i);
+            objects_.unseen[label_of(io::object_label(wanted.index))].push_back(i);
         else if (const auto id = frame.cryptomatte.find(wanted.name); id != frame.cryptomatte.end())
             ids_.unseen[id->second].push_back(i);
     }
@@ -75,8 +78,14 @@ void MaskMatches::look(Labels& labels, const float* values, const float* coverag
 }
 
 void MaskMatches::see(const std::map<std::string, const float*>& planes, std::size_t pixels) {
-    if (const auto object = planes.find("object"); object != planes.end() && !objects_.unseen.empty())
-        look(objects_, object->second, nullptr, pixels);
+    if (const auto object = planes.find("object"); object != planes.end()) {
+        if (!objects_.unseen.empty()) look(objects_, object->second, nullptr, pixels);
+        if (storage_ == io::ObjectStorage::single) {
+            object_pixels_ += pixels;
+            mixed_pixels_ +=
+                static_cast<std::uint64_t>(std::count_if(object->second, object->second + pixels, io::is_mixed_object));
+        }
+    }
     for (int rank = 0; !ids_.unseen.empty(); ++rank) {
         const auto id = planes.find(fmt::format("crypto.id{}", rank));
         const auto coverage = planes.find(fmt::format("crypto.coverage{}", rank));
@@ -85,12 +94,17 @@ void MaskMatches::see(const std::map<std::string, const float*>& planes, std::si
     }
 }
 
+double MaskMatches::number_of(std::uint32_t label) const {
+    const auto value = std::bit_cast<float>(label);
+    return storage_ == io::ObjectStorage::single && !(std::abs(value) > 1 << 24) ? value : io::object_number(value);
+}
+
 std::string MaskMatches::shown(const Labels& labels, bool names) const {
     std::vector<std::string> texts;
-    std::vector<float> indices;
+    std::vector<double> indices;
     for (const std::uint32_t label : labels.shown) {
         if (!names)
-            indices.push_back(std::bit_cast<float>(label));
+            indices.push_back(number_of(label));
         else if (const auto name = names_.find(label); name != names_.end())
             texts.push_back(name->second);
         else
@@ -98,7 +112,7 @@ std::string MaskMatches::shown(const Labels& labels, bool names) const {
     }
     std::ranges::sort(indices);
     std::ranges::sort(texts);
-    for (const float index : indices) texts.push_back(fmt::format("{}", index));
+    for (const double index : indices) texts.push_back(fmt::format("{}", index));
     return texts.empty() ? "nothing" : listed(texts, labels.more);
 }
 
@@ -122,6 +136,15 @@ std::vector<std::string> MaskMatches::warnings() const {
         }
         if (!line.empty()) lines.push_back(layers_[layer] + ": " + line);
     }
+    const double mixed =
+        static_cast<double>(mixed_pixels_) / static_cast<double>(std::max<std::uint64_t>(object_pixels_, 1));
+    const bool asked_for = std::ranges::any_of(
+        wanted_, [](const Wanted& wanted) { return io::is_mixed_object(static_cast<float>(wanted.index)); });
+    if (mixed >= kManyMixed && !asked_for)
+        lines.push_back(fmt::format(
+            "object numbers: {:.1f}% of the pixels hold no whole number but the average of several objects, and "
+            "belong to none of them; render the object pass with one sample a pixel, or mask by Cryptomatte",
+            100 * mixed));
     return lines;
 }
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "io/object_ids.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
@@ -16,11 +17,13 @@ public:
     /// Takes what the scene's masks and tables of decals name, but inverted masks, which may well match nothing.
     explicit MaskMatches(const Scene& scene);
 
-    /// The frame whose rows come next; its Cryptomatte has a hash for every name of the scene.
-    void begin(const Frame& frame);
+    /// The frame whose rows come next; its Cryptomatte has a hash for every name of the scene. `objects`: how it holds
+    /// object numbers.
+    void begin(const Frame& frame, io::ObjectStorage objects = io::ObjectStorage::single);
     /// Pixels as they were read; of the planes, only object and crypto.* are looked at.
     void see(const std::map<std::string, const float*>& planes, std::size_t pixels);
-    /// A line for each layer that names objects which no pixel of any frame showed, with what the frames show.
+    /// A line for each layer that names objects which no pixel of any frame showed, with what the frames show; and one
+    /// if many pixels mix objects.
     std::vector<std::string> warnings() const;
 
 private:
@@ -39,12 +42,15 @@ private:
     };
 
     void look(Labels& labels, const float* values, const float* coverages, std::size_t pixels);
+    double number_of(std::uint32_t label) const;
     std::string shown(const Labels& labels, bool names) const;
 
     std::vector<std::string> layers_;  ///< labels
     std::vector<Wanted> wanted_;
     Labels objects_, ids_;
     std::map<std::uint32_t, std::string> names_;  ///< of ids, as the frames know them
+    io::ObjectStorage storage_ = io::ObjectStorage::single;
+    std::uint64_t object_pixels_ = 0, mixed_pixels_ = 0;
 };
 
 }  // namespace wrinkle

@@ -35,11 +35,9 @@ std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, cons
 }  // namespace
 
 Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera) {
-    if (reader.roles().screen_space_normals)
-        throw Error(
-            fmt::format("{}: its normals ({}) are in camera space; render world-space normals and name them in "
-                        "[gbuffer] roles",
-                        reader.path().string(), reader.roles().channel_of.at("normal.x")));
+    if (!reader.normals_are_in_world_space())
+        throw Error(fmt::format("{}: its normals ({}) are in camera space, and nobody has turned them",
+                                reader.path().string(), reader.roles().channel_of.at("normal.x")));
     Frame frame{.size = reader.size(), .camera = camera.camera, .planes = {}, .ray_depth = false, .cryptomatte = {}};
     for (const std::string& plane : reader.planes()) frame.planes.insert(plane);
     for (const std::string& channel : reader.channels()) frame.planes.insert("channel:" + channel);
@@ -53,9 +51,16 @@ GBufferReader open_frame(const Scene& scene, int frame) {
     return GBufferReader(frame_path(scene.gbuffer.file, frame), scene.gbuffer);
 }
 
+FrameCamera camera_of_frame(const Scene& scene, GBufferReader& reader, int frame, CameraCheck check) {
+    FrameCamera camera = read_frame_camera(scene.camera, reader, frame);
+    if (check == CameraCheck::refuse) check_residual(camera, scene.camera.max_residual, reader);
+    reader.turn_normals(camera.camera.view);
+    return camera;
+}
+
 Frame describe_frame(const Scene& scene, int frame) {
-    const GBufferReader reader = open_frame(scene, frame);
-    return frame_of(scene, reader, read_frame_camera(scene.camera, reader, frame));
+    GBufferReader reader = open_frame(scene, frame);
+    return frame_of(scene, reader, camera_of_frame(scene, reader, frame, CameraCheck::none));
 }
 
 }  // namespace wrinkle

@@ -9,8 +9,14 @@ namespace wrinkle {
 /// Opens the scene's G-buffer; `number` fills in a frame pattern. Throws Error.
 GBufferReader open_frame(const Scene& scene, int number);
 
+/// The camera of an open frame, by which the reader turns normals of camera space. `refuse` throws Error for a camera
+/// that does not fit the positions.
+enum class CameraCheck { none, refuse };
+FrameCamera camera_of_frame(const Scene& scene, GBufferReader& reader, int number,
+                            CameraCheck check = CameraCheck::refuse);
+
 /// What a plan may count on in an open frame, and the ids of every Cryptomatte name that the scene or the file has.
-/// Throws Error naming the layer whose name has no id, or the normals that are not in world space.
+/// Throws Error naming the layer whose name has no id.
 Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera);
 
 /// The same of a frame of the scene, without reading pixels. Throws Error.

@@ -6,6 +6,7 @@
 
 #include "base/limits.h"
 #include "io/frame_path.h"
+#include "io/udim.h"
 
 namespace wrinkle::scene {
 namespace fs = std::filesystem;
@@ -16,6 +17,10 @@ std::string why_not_readable(const fs::path& file, bool pattern, const char* fro
     const fs::file_status status = fs::status(file, error);
     if (fs::is_directory(status)) return fmt::format("{} is a folder, not a file", file.string());
     if (fs::exists(status)) return {};
+    if (io::is_udim(file))
+        return io::udim_tiles(file).empty()
+                   ? fmt::format("there is no tile of {}, as 1001 in place of <UDIM>", file.string())
+                   : std::string{};
     if (!has_frame_pattern(file))
         return fmt::format("there is no file {} (relative paths start from {})", file.string(), from);
     if (!pattern)

@@ -1,5 +1,10 @@
 #include "scene/layer_readers.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "io/udim.h"
+
 namespace wrinkle::scene {
 namespace {
 
@@ -31,9 +36,27 @@ void read_weight_without_levels(Table& table, Layer& layer) {
 
 void read_project(Table& table, Layer& layer) { table.read("project", layer.project); }
 
+void read_texture_choice(Table& table, TextureUse& texture) {
+    table.read("layer", texture.layer, Compiled::no);
+    table.read("channels", texture.channels);
+    table.read("zero", texture.zero, 0, 65535);
+    if (table.has("channels") && table.has("layer"))
+        table.complain("channels", "names channels beside a layer; keep one of them");
+}
+
+bool read_texture_name(Table& table, TextureUse& texture) {
+    if (!table.is_table("texture")) return table.read_file("texture", texture.file);
+    Table parts = *table.table("texture", "texture of " + table.where());
+    parts.require("file");
+    const bool named = parts.read_file("file", texture.file);
+    read_texture_choice(parts, texture);
+    parts.finish();
+    return named;
+}
+
 void read_texture_file(Table& table, TextureUse& texture) {
     table.require("texture");
-    table.read_file("texture", texture.file);
+    read_texture_name(table, texture);
     if (table.visits()) visit_texture(table, texture);
 }
 
@@ -56,6 +79,9 @@ void visit_texture(Table& table, TextureUse& texture) {
                  {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
     table.choose("slopes", texture.unit,
                  {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}, {"metre", SlopeUnit::metre}});
+    table.compiled_in("layer", texture.layer);
+    table.compiled_in("channels", fmt::format("{}", fmt::join(texture.channels, " ")));
+    table.compiled_in("zero", texture.zero);
 }
 
 void read_green(Table& table, TextureUse& texture) { table.choose("y", texture.y_down, {{"+", false}, {"-", true}}); }
@@ -70,8 +96,14 @@ void read_slope_encoding(Table& table, TextureUse& texture) {
     table.choose("slopes", texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
 }
 
+void refuse_tiles(Table& table, const char* key, const TextureUse& texture) {
+    if (io::is_udim(texture.file))
+        table.complain(key, "names tiles by <UDIM>, which only textures on texture coordinates (uv) may have");
+}
+
 void read_any_texture(Table& table, TextureUse& texture) {
     read_texture_file(table, texture);
+    refuse_tiles(table, "texture", texture);
     table.choose("content", texture.content, {{"height", Content::height}, {"normal", Content::normal}});
     read_green(table, texture);
     read_upscale(table, texture);
@@ -79,9 +111,19 @@ void read_any_texture(Table& table, TextureUse& texture) {
     table.only_with("upscale", texture.content == Content::height, "content", "height");
 }
 
+void span_tiles(Table& table, const TextureUse& texture, UvMapping& mapping) {
+    if (table.visits() || !io::is_udim(texture.file)) return;
+    const io::UdimSpan span = io::udim_span(io::udim_tiles(texture.file));
+    if (mapping.rotation != 0 && span.columns != span.rows)
+        table.complain("uv", "must not rotate a texture of <UDIM> tiles");
+    mapping.scale[0] /= span.columns, mapping.offset[0] /= span.columns;
+    mapping.scale[1] /= span.rows, mapping.offset[1] /= span.rows;
+}
+
 void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping) {
     table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
     if (auto uv = table.table("uv", "uv of " + table.where())) read_uv(*uv, mapping);
+    span_tiles(table, texture, mapping);
 }
 
 }  // namespace wrinkle::scene

@@ -22,6 +22,10 @@ void read_weight(Table& table, Layer& layer);
 void read_weight_without_levels(Table& table, Layer& layer);
 /// project: for kinds that are gradients in space
 void read_project(Table& table, Layer& layer);
+/// layer, channels, zero: of a file's parts, which are wanted
+void read_texture_choice(Table& table, TextureUse& texture);
+/// The value of texture: a file, or a table of one with its choice. Whether there is one.
+bool read_texture_name(Table& table, TextureUse& texture);
 /// texture
 void read_texture_file(Table& table, TextureUse& texture);
 /// The same, for kinds whose texture holds one content only.
@@ -32,6 +36,11 @@ void visit_texture(Table& table, TextureUse& texture);
 void read_green(Table& table, TextureUse& texture);
 /// upscale
 void read_upscale(Table& table, TextureUse& texture);
+/// Complains of a texture of <UDIM> tiles, where there are no texture coordinates that tell them apart.
+void refuse_tiles(Table& table, const char* key, const TextureUse& texture);
+/// A texture of tiles becomes one image of all of them, so its coordinates shrink by as much as that is larger. A scene
+/// that was made in code holds such coordinates already.
+void span_tiles(Table& table, const TextureUse& texture, UvMapping& mapping);
 /// texture, content, y, upscale: for kinds whose texture holds either content
 void read_any_texture(Table& table, TextureUse& texture);
 /// encoding, slopes

@@ -67,14 +67,11 @@ toml::table parse_scene_file(const std::filesystem::path& file) {
                         name));
     toml::table values = parse_toml(text, name);
     if (!values.empty()) return values;
-    throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer] and [camera]", name));
+    throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer]", name));
 }
 
 void read_scene(Table& root, LayerKinds kinds, Scene& out) {
-    if (!root.visits()) {
-        require_table(root, "gbuffer", "file = \"frame.exr\"");
-        require_table(root, "camera", "from = \"exr\"");
-    }
+    if (!root.visits()) { require_table(root, "gbuffer", "file = \"frame.exr\""); }
     if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
     if (auto table = root.table("camera", "[camera]", false)) read_camera(*table, out.camera);
     read_layers(root, kinds, out.layers);

@@ -25,13 +25,47 @@ void read_matrices(Table& table, CameraSource& out) {
     out.inline_camera = camera;
 }
 
+/// One of fov (which is fov_y), fov_x and lens, the last with sensor and fit.
+void read_field_of_view(Table& table, CameraSource::LookAt& look) {
+    constexpr Range angle{.low = 0, .high = 180, .low_is_allowed = false, .high_is_allowed = false};
+    std::string first;
+    for (const char* key : {"fov", "fov_y", "fov_x", "lens"}) {
+        if (!table.has(key)) continue;
+        if (!first.empty())
+            table.complain(key,
+                           fmt::format("states the field of view again, beside {}; keep one of them", quote(first)));
+        else
+            first = key;
+    }
+    if (first.empty()) table.require("fov");
+    table.read_degrees("fov", look.fov_y, angle);
+    table.read_degrees("fov_y", look.fov_y, angle);
+    table.read_degrees("fov_x", look.fov_x, angle);
+    Lens lens;
+    const bool has_lens = table.read("lens", lens.focal, positive);
+    if (table.has("sensor") && !table.is_array("sensor")) {
+        double both = 0;
+        if (table.read("sensor", both, positive)) lens.sensor = {both, both};
+    } else {
+        table.read("sensor", lens.sensor, positive);
+    }
+    table.choose(
+        "fit", lens.fit,
+        {{"auto", Lens::Fit::automatic}, {"horizontal", Lens::Fit::horizontal}, {"vertical", Lens::Fit::vertical}},
+        Compiled::no);
+    for (const char* key : {"sensor", "fit"})
+        if (table.has(key) && !table.has("lens")) table.complain(key, "has an effect only with the key \"lens\"");
+    if (has_lens) look.lens = lens;
+    table.read("shift", look.shift);
+}
+
 void read_look_at(Table& table, CameraSource& out) {
     CameraSource::LookAt look;
-    for (const char* key : {"eye", "target", "fov"}) table.require(key);
+    for (const char* key : {"eye", "target"}) table.require(key);
     table.read("eye", look.eye);
     table.read("target", look.target);
     table.read("up", look.up);
-    table.read_degrees("fov", look.fov_y, {.low = 0, .high = 180, .low_is_allowed = false, .high_is_allowed = false});
+    read_field_of_view(table, look);
     if (!table.is_bad("eye") && !table.is_bad("target") && !table.is_bad("up")) {
         if (look.eye == look.target)
             table.complain("target", "must not be the same point as eye");
@@ -60,10 +94,13 @@ const std::vector<Form>& camera_forms() {
          [](Table& table, CameraSource& out) { table.read_file("file", out.file, Table::FramePattern::allowed); }},
         {{"from"},
          [](Table& table, CameraSource& out) {
-             table.choose("from", out.exr, {{"exr", true}});
+             enum class From { header, positions };
+             From from{};
+             if (table.choose("from", from, {{"exr", From::header}, {"positions", From::positions}}))
+                 (from == From::header ? out.exr : out.positions) = true;
          }},
         {{"view", "proj"}, read_matrices},
-        {{"eye", "target", "up", "fov"}, read_look_at},
+        {{"eye", "target", "up", "fov", "fov_x", "fov_y", "lens", "sensor", "fit", "shift"}, read_look_at},
     };
     return forms;
 }
@@ -91,8 +128,13 @@ void read_roles(Table& table, std::map<std::string, std::string>& out) {
 
 void read_gbuffer(Table& table, GBufferSource& out) {
     if (!table.visits()) {
+        table.read("view", out.view);
+        table.document().view = out.view;
         table.require("file");
         table.read_file("file", out.file, Table::FramePattern::allowed);
+        if (table.document().view_in_names) out.view.clear();  // a file for each view holds no other
+        table.read("layer", out.layer);
+        table.read("overscan", out.overscan);
         if (auto roles = table.table("roles", "roles of " + table.where())) read_roles(*roles, out.roles);
     }
     table.choose("geometry", out.geometry,
@@ -100,6 +142,17 @@ void read_gbuffer(Table& table, GBufferSource& out) {
     table.choose("depth", out.depth,
                  {{"auto", DepthKind::automatic}, {"planar", DepthKind::planar}, {"ray", DepthKind::ray}},
                  Compiled::no);
+    table.choose("normals", out.normals,
+                 {{"auto", NormalKind::automatic},
+                  {"signed", NormalKind::sign},
+                  {"packed", NormalKind::packed},
+                  {"camera", NormalKind::camera}},
+                 Compiled::no);
+    if (auto uv = table.table("uv", "uv of " + table.where())) {
+        uv->choose("v", out.v, {{"auto", VDirection::automatic}, {"up", VDirection::up}, {"down", VDirection::down}},
+                   Compiled::no);
+        uv->finish();
+    }
     table.finish();
 }
 
@@ -119,11 +172,7 @@ void read_camera(Table& table, CameraSource& out) {
             chosen = &form;
             first = key;
         }
-    if (chosen)
-        chosen->read(table, out);
-    else
-        table.complain_here(
-            fmt::format("{} needs one of: file | from = \"exr\" | view and proj | eye, target and fov", table.where()));
+    if (chosen) chosen->read(table, out);
     table.read("max_residual", out.max_residual, positive);
     table.finish();
 }

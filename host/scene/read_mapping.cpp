@@ -5,6 +5,7 @@
 
 #include "base/names.h"
 #include "base/vec.h"
+#include "scene/layer_readers.h"
 #include "scene/readers.h"
 
 namespace wrinkle::scene {
@@ -51,12 +52,15 @@ void read_mask(Table& table, Mask& out) {
     if (table.visits()) table.compiled_in("texture", out.texture.has_value());
     if (out.texture) table.require("texture");
     MaskTexture texture = out.texture.value_or(MaskTexture{});
-    const bool has_texture = table.read_file("texture", texture.file);
+    TextureUse use{.file = texture.file, .layer = texture.layer, .channels = texture.channels};
+    const bool has_texture = read_texture_name(table, use);
+    texture.file = use.file, texture.layer = use.layer, texture.channels = use.channels;
     if (auto uv = table.table("uv", "uv of " + table.where(), out.texture.has_value())) {
         read_uv(*uv, texture.uv);
         if (!table.visits() && !table.has("texture"))
             table.complain("uv", "has an effect only with the key \"texture\"");
     }
+    span_tiles(table, use, texture.uv);
     if (has_texture) out.texture = texture;
     const auto has = [&](const char* key, bool held) { return table.has(key) || (table.visits() && held); };
     if (!has("object", out.object.has_value()) && !has("cryptomatte", out.cryptomatte.has_value()) &&

@@ -8,6 +8,7 @@ namespace {
 /// texture and what its content asks for
 void read_plane_texture(Table& table, TextureUse& texture) {
     read_texture_file(table, texture);
+    refuse_tiles(table, "texture", texture);
     table.choose("content", texture.content,
                  {{"height", Content::height},
                   {"normal", Content::normal},

@@ -221,6 +221,15 @@ bool Table::read(std::string_view key, std::vector<std::string>& out) {
 bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern) {
     std::string name = visits() ? out.string() : "";
     if (!read(key, name)) return false;
+    if (const auto place = name.find("%V"); place != std::string::npos) {
+        if (document_->view.empty()) {
+            complain(key,
+                     fmt::format("is {}: %V stands for a view; say which with [gbuffer] view = \"left\"", quote(name)));
+            return false;
+        }
+        name.replace(place, 2, document_->view);
+        document_->view_in_names = true;
+    }
     const std::filesystem::path file = (document_->folder / name).lexically_normal();
     if (document_->check_files) {
         const std::string problem = why_not_readable(file, pattern == FramePattern::allowed,

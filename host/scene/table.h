@@ -32,6 +32,8 @@ struct Document {
     bool check_files = true;       ///< whether the files a scene names have to exist
     Problems problems;
     std::vector<Structure> structure{};  ///< of what was visited
+    std::string view{};                  ///< stands for %V in the names of files
+    bool view_in_names = false;          ///< whether a name had it
 };
 
 /// Allowed numbers. Kernels compute in float32, so nothing passes that float32 cannot hold.

@@ -91,8 +91,8 @@ MontagePart cut(const Shown& shown, Size frame, const std::array<double, 4>& cro
 
 void draw_figure(const Device& device, const Figure& figure, const std::filesystem::path& file) {
     guarded("draw a figure", [&] {
-        const GBufferReader reader(figure.scene.gbuffer.file, figure.scene.gbuffer);
-        check_residual(read_frame_camera(figure.scene.camera, reader, 0), figure.scene.camera.max_residual, reader);
+        GBufferReader reader(figure.scene.gbuffer.file, figure.scene.gbuffer);
+        camera_of_frame(figure.scene, reader, 0);
         const auto exposure = static_cast<float>(std::exp2(figure.scene.lighting.exposure));
         std::vector<MontagePart> parts;
         for (const Panel& panel : figure.panels) {

@@ -32,8 +32,10 @@ std::vector<std::string> need(std::vector<std::string> missing, const GBufferInf
 
 std::vector<Readiness> readiness(const GBufferInfo& info) {
     std::vector<std::string> base = need({}, info, {"normal", "depth or position"});
-    if (!info.camera) base.emplace_back("camera");
-    if (info.roles.screen_space_normals) base.emplace_back("normal in world space (this one is in screen space)");
+    if (!info.camera)
+        base.emplace_back("camera");
+    else if (!info.camera_problem.empty())
+        base.emplace_back("camera that fits the positions");
 
     std::vector<Readiness> uses;
     for (const LayerKind* kind : layer_kinds()) {
@@ -47,8 +49,8 @@ std::vector<Readiness> readiness(const GBufferInfo& info) {
     Readiness lighting{"lighting", base, need({}, info, {"albedo", "roughness"})};
     uses.push_back(lighting);
     uses.push_back({"relight = \"ratio\"", need(base, info, {"beauty"}), lighting.defaults});
-    uses.push_back({"mask by object", need({}, info, {"object"}), {}});
-    uses.push_back({"mask by cryptomatte", need({}, info, {"cryptomatte"}), {}});
+    uses.push_back({"mask by object", need(base, info, {"object"}), {}});
+    uses.push_back({"mask by cryptomatte", need(base, info, {"cryptomatte"}), {}});
     return uses;
 }
 

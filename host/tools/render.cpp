@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "budget/error_sample.h"
 #include "device/guarded.h"
 #include "layers/kinds.h"
 #include "run/condition.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
+#include "tools/frame_warnings.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -77,19 +80,16 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
     MaskMatches matches(scene);
     for (std::size_t f = 0; f < frames.size(); ++f) {
         GBufferReader reader = clock.measure(PhaseClock::read, [&] { return open_frame(scene, frames[f]); });
-        const FrameCamera camera = clock.measure(PhaseClock::read, [&] {
-            FrameCamera found = read_frame_camera(scene.camera, reader, frames[f]);
-            check_residual(found, scene.camera.max_residual, reader);
-            return found;
-        });
-        report.cameras.push_back(camera.residual ? fmt::format("{}; positions reproject within {:.3g} pixel (median)",
-                                                               camera.origin, camera.residual->median)
-                                                 : fmt::format("{}; no positions to check it against", camera.origin));
+        const FrameCamera camera =
+            clock.measure(PhaseClock::read, [&] { return camera_of_frame(scene, reader, frames[f]); });
+        report.cameras.push_back(camera.origin + "; " + describe_residual(camera));
+        for (const std::string& line : frame_warnings(scene, reader))
+            if (std::ranges::find(report.warnings, line) == report.warnings.end()) report.warnings.push_back(line);
         const Frame frame = frame_of(scene, reader, camera);
         std::optional<int> number;
         if (!options.frames.empty()) number = frames[f];
         check_outputs(scene, reader, options.directory, number);
-        matches.begin(frame);
+        matches.begin(frame, reader.object_storage());
         if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
             kept.emplace(clock.measure(PhaseClock::build, [&] {
                 return KeptBudget{Budget(scene, camera_kind(frame.camera, frame.size), costs_of(device.info)),
@@ -138,7 +138,8 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         report.pixels += std::uint64_t{frame.size.width} * frame.size.height;
         ++report.frames;
     }
-    report.warnings = matches.warnings();
+    const auto unmatched = matches.warnings();
+    report.warnings.insert(report.warnings.end(), unmatched.begin(), unmatched.end());
     if (kept) report.budget = kept->budget.report();
     report.device = device.info;
     for (const Layer& layer : scene.layers) report.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;

@@ -35,7 +35,7 @@ struct RenderReport {
     std::vector<std::filesystem::path> files;
     std::vector<std::string> cameras;  ///< a line a frame: origin and residual
     std::optional<BudgetReport> budget;
-    std::vector<std::string> warnings;  ///< of layers whose masks no pixel matches
+    std::vector<std::string> warnings;  ///< of frames whose passes hold too little, and masks that no pixel matches
 };
 
 /// Runs a scene over its frames: reads bands of rows, evaluates, writes, overlapped. Memory does not grow with the

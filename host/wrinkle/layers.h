@@ -178,6 +178,8 @@ struct ResolveLayer {
 struct MaskTexture {
     std::filesystem::path file{};
     UvMapping uv{};
+    std::string layer{};  ///< as those of a TextureUse
+    std::vector<std::string> channels{};
 };
 
 struct Mask {

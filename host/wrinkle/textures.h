@@ -2,6 +2,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "wrinkle/camera.h"
 
@@ -31,6 +33,9 @@ struct TextureUse {
     bool y_down = false;  ///< `y = "-"`: green points down (DirectX), t slopes change sign; tangent normals and slopes
     Encoding encoding = Encoding::automatic;  ///< slopes only
     SlopeUnit unit = SlopeUnit::texel;        ///< slopes only
+    std::string layer{};                      ///< of a file with several; empty: the one that fits the content
+    std::vector<std::string> channels{};      ///< names of channels, as many as the content takes; empty: by the layer
+    int zero = 0;  ///< stored number that means 0, of packed normals and slopes of integers (128 of 255); 0: the middle
     bool operator==(const TextureUse&) const = default;
 };
 

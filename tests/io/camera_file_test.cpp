@@ -215,9 +215,45 @@ TEST(CameraFile, ACameraThatDoesNotFitIsRefused) {
                     {"does not fit", "f.exr", "pixels away", "max_residual = 0.5"});
     source.max_residual = 20;
     EXPECT_NO_THROW(read_camera(source, GBufferReader(folder / "f.exr")));
-    expect_mentions(error_of([&] { read_camera({}, GBufferReader(folder / "f.exr")); }), {"no camera"});
     expect_mentions(error_of([&] { read_camera(from_header(), GBufferReader(folder / "f.exr")); }),
                     {"the header has no camera: neither worldToNDC"});
+}
+
+TEST(CameraFile, AWrongAxisIsToldAsSuch) {
+    TempFolder folder;
+    write_frame(folder / "f.exr", {}, plain_names);
+    CameraSource source;
+    source.look_at = CameraSource::LookAt{{1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0, 0.6};
+    expect_mentions(error_of([&] { read_camera(source, GBufferReader(folder / "f.exr")); }),
+                    {"fov_y fits", "picture's other side"});
+    source.look_at = CameraSource::LookAt{{2.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.6};
+    expect_mentions(error_of([&] { read_camera(source, GBufferReader(folder / "f.exr")); }),
+                    {"from = \"positions\" solves fits within"});
+}
+
+TEST(CameraFile, FieldsOfViewAndLensesAreTheSame) {
+    TempFolder folder;
+    write_frame(folder / "f.exr", {}, plain_names);
+    const GBufferReader reader(folder / "f.exr");
+    CameraSource source;
+    const CameraSource::LookAt place{{1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}};
+    source.look_at = place;
+    source.look_at->fov_x = 2 * std::atan(std::tan(0.3) * aspect);
+    expect_same(read_camera(source, reader), 1e-12);
+    const double tall = std::tan(0.3), wide = tall * aspect;
+    for (const auto& [fit, sensor] : {std::pair{Lens::Fit::automatic, std::array{36.0, 5.0}},
+                                      {Lens::Fit::horizontal, {36.0, 5.0}},
+                                      {Lens::Fit::vertical, {5.0, 24.0}}}) {
+        source.look_at = place;
+        const bool vertical = fit == Lens::Fit::vertical;
+        source.look_at->lens = Lens{(vertical ? 24 / tall : 36 / wide) / 2, sensor, fit};
+        expect_same(read_camera(source, reader), 1e-12);
+    }
+    source.look_at->shift = {0.25, -0.1};
+    source.max_residual = 1e9;
+    const auto shifted = read_camera(source, reader);  // Blender's: shares of the longer side
+    EXPECT_NEAR((*project(shifted, size, {0, 0, 0.8}))[0], 48 - 0.25 * 96, 1e-9);
+    EXPECT_NEAR((*project(shifted, size, {0, 0, 0.8}))[1], 27 - 0.1 * 96, 1e-9);
 }
 
 std::string json_matrix(const Mat4& m) {

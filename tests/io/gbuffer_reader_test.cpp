@@ -165,6 +165,98 @@ TEST(GBufferReader, WholeNumberChannelsKeepTheirValue) {
     EXPECT_EQ(values[1][4 + 3], numbered(0, 3, 1));
 }
 
+/// A file of one channel of unsigned integers.
+void write_integers(const std::filesystem::path& file, const std::string& channel, std::vector<std::uint32_t> row) {
+    auto spec = make_spec(static_cast<int>(row.size()), 1, {channel}, OIIO::TypeUInt32);
+    auto output = OIIO::ImageOutput::create(file.string());
+    ASSERT_TRUE(output->open(file.string(), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeUInt32, row.data()));
+    ASSERT_TRUE(output->close());
+}
+
+TEST(GBufferReader, IntegersKeepAll32Bits) {
+    TempFolder folder;
+    const std::vector<std::uint32_t> numbers{0, 3, 16777216, 16777217, 4294967295u};
+    write_integers(folder / "id.exr", "object", numbers);
+    const GBufferReader reader(folder / "id.exr");
+    EXPECT_EQ(reader.object_storage(), io::ObjectStorage::whole);
+    EXPECT_EQ(reader.channel_type("object"), ChannelType::whole);
+    const auto values = read(reader, 0, 1, {"object", "bits:object", "channel:object"});
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        EXPECT_EQ(values[0][i], io::object_label(numbers[i]));
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(values[1][i]), numbers[i]);
+        EXPECT_EQ(values[2][i], static_cast<float>(numbers[i]));
+    }
+}
+
+TEST(GBufferReader, ObjectNumbersThatAFilterHasAveraged) {
+    TempFolder folder;
+    write_exr(folder / "id.exr", 4, 2, {"si.I"}, [](int, int x, int) {
+        return x == 0 ? 2.9999998f : x == 1 ? 2.5f : 7.0f;
+    });
+    EXPECT_EQ(read(GBufferReader(folder / "id.exr"), 0, 1, {"object"})[0], (std::vector<float>{3, 2.5f, 7, 7}));
+}
+
+TEST(GBufferReader, NormalsAreReadAsTheSceneSays) {
+    TempFolder folder;
+    const float n[3] = {0.6f, 0, 0.8f};
+    GBufferSource source;
+    write_exr(folder / "n.exr", 8, 8, {"N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z"},
+              [&](int c, int, int) { return c < 3 ? (n[c] + 1) / 2 : 1.0f; });
+    const Names normal{"normal.x", "normal.y", "normal.z"};
+    const auto at = [&](const GBufferReader& reader, std::size_t axis) { return read(reader, 0, 1, normal)[axis][0]; };
+    EXPECT_TRUE(GBufferReader(folder / "n.exr").packed_normals()) << "whatever the writer";
+    EXPECT_NEAR(at(GBufferReader(folder / "n.exr"), 0), 0.6, 1e-6);
+    source.normals = NormalKind::sign;
+    EXPECT_NEAR(at(GBufferReader(folder / "n.exr", source), 0), 0.8, 1e-6);
+    write_exr(folder / "s.exr", 8, 8, {"N.X", "N.Y", "N.Z"}, [&](int c, int, int) { return n[c]; });
+    EXPECT_NEAR(at(GBufferReader(folder / "s.exr"), 0), 0.6, 1e-6);
+    source.normals = NormalKind::packed;
+    EXPECT_NEAR(at(GBufferReader(folder / "s.exr", source), 0), 0.2, 1e-6);
+    source.normals = NormalKind::camera;
+    GBufferReader reader(folder / "s.exr", source);
+    EXPECT_FALSE(reader.normals_are_in_world_space());
+    const auto camera = Camera::look_at({0, -5, 0}, {0, 0, 0}, {0, 0, 1}, 1, 1);  // its z is the world's -y
+    reader.turn_normals(camera.view);
+    EXPECT_TRUE(reader.normals_are_in_world_space());
+    EXPECT_NEAR(at(reader, 0), 0.6, 1e-6);
+    EXPECT_NEAR(at(reader, 1), -0.8, 1e-6);
+    EXPECT_NEAR(at(reader, 2), 0, 1e-6);
+}
+
+TEST(GBufferReader, TextureCoordinatesThatGrowDownwardsAreTurned) {
+    TempFolder folder;
+    write_exr(folder / "m.exr", 2, 2, {"uv.U", "uv.V", "dd.T", "duv_dx.U", "duv_dx.V", "dp_dv.X", "dp_dv.Y", "dp_dv.Z"},
+              [](int c, int, int) { return c == 0 ? 0.25f : 0.125f; });
+    const auto values = read(GBufferReader(folder / "m.exr"), 0, 1, {"uv.u", "uv.v", "duv_dx.v", "dp_dv.y"});
+    EXPECT_EQ(values[1][0], 0.875f);
+    EXPECT_EQ(values[2][0], -0.125f);
+    EXPECT_EQ(values[3][0], -0.125f);
+    GBufferSource source;
+    source.v = VDirection::up;
+    EXPECT_EQ(read(GBufferReader(folder / "m.exr", source), 0, 1, {"uv.v"})[0][0], 0.125f);
+}
+
+TEST(GBufferReader, OverscanBelongsToTheFrameWhereItIsWanted) {
+    TempFolder folder;
+    auto spec = make_spec(14, 12, {"N.X", "N.Y", "N.Z"});
+    spec.x = 97, spec.y = 198;
+    spec.full_x = 100, spec.full_y = 200, spec.full_width = 10, spec.full_height = 20;
+    write_image(folder / "over.exr", {{spec}});
+    EXPECT_EQ(GBufferReader(folder / "over.exr").size(), (Size{10, 20}));
+    GBufferSource source;
+    source.overscan = true;
+    const GBufferReader reader(folder / "over.exr", source);
+    EXPECT_EQ(reader.size(), (Size{14, 22}));
+    EXPECT_EQ(reader.window().x, -3);
+    EXPECT_EQ(reader.window().y, -2);
+    EXPECT_EQ(reader.window().display, (Size{10, 20}));
+    const auto plane = read(reader, 0, 22, {"normal.y"})[0];
+    EXPECT_EQ(plane[0], numbered(1, 0, 0));
+    EXPECT_EQ(plane[11 * 14 + 13], numbered(1, 13, 11));
+    EXPECT_EQ(plane[12 * 14], 0);
+}
+
 TEST(GBufferReader, UnrealPackedNormalsAreUnpacked) {
     TempFolder folder;
     const auto packed = [](int c, int x, int y) {

@@ -18,6 +18,12 @@ void expect_channels(const RoleMap& map, const std::map<std::string, std::string
     }
 }
 
+GBufferSource with_roles(const std::map<std::string, std::string>& roles) {
+    GBufferSource source;
+    source.roles = roles;
+    return source;
+}
+
 Names layers(std::initializer_list<std::pair<const char*, const char*>> parts) {
     Names names;
     for (const auto& [layer, components] : parts)
@@ -58,7 +64,7 @@ TEST(Roles, TangentsWithTheirSign) {
     names = layers({{"N", "XYZ"}, {"tangent", "RGBA"}});  // alpha is coverage, unless an override says otherwise
     EXPECT_TRUE(detect_roles(names).has_role("tangent"));
     EXPECT_FALSE(detect_roles(names).has_role("tangent_sign"));
-    expect_channels(detect_roles(names, {{"tangent_sign", "tangent.A"}}), {{"tangent_sign", "tangent.A"}});
+    expect_channels(detect_roles(names, with_roles({{"tangent_sign", "tangent.A"}})), {{"tangent_sign", "tangent.A"}});
     names = layers({{"N", "XYZ"}, {"world_tangent", "XYZ"}});
     names.push_back("tangent_sign");
     expect_channels(detect_roles(names), {{"tangent.x", "world_tangent.X"}, {"tangent_sign", "tangent_sign"}});
@@ -143,8 +149,60 @@ TEST(Roles, VRayNormalsAreScreenSpace) {
     names.push_back("Z");
     const auto map = detect_roles(names);
     EXPECT_EQ(map.writer, Writer::vray);
-    EXPECT_TRUE(map.screen_space_normals);
-    EXPECT_FALSE(detect_roles(names, {{"normal", "none"}}).screen_space_normals);
+    EXPECT_TRUE(map.camera_space_normals);
+    EXPECT_FALSE(detect_roles(names, with_roles({{"normal", "none"}})).camera_space_normals);
+}
+
+TEST(Roles, HeadersOfVRayTellThatNormalsAreInCameraSpace) {
+    const auto names = layers({{"normals", "XYZ"}, {"position", "XYZ"}});
+    EXPECT_FALSE(detect_roles(names).camera_space_normals);
+    Metadata header;
+    header.set("vrayInfo/vrayversion", "Version of V-Ray for Maya 3.60.05");
+    const auto hints = header_hints(header);
+    EXPECT_EQ(detect_roles(names, {}, hints).writer, Writer::vray);
+    EXPECT_TRUE(detect_roles(names, {}, hints).camera_space_normals);
+    EXPECT_FALSE(detect_roles(layers({{"world_normal", "XYZ"}}), {}, hints).camera_space_normals);
+    GBufferSource source;
+    source.normals = NormalKind::sign;
+    EXPECT_FALSE(detect_roles(names, source, hints).camera_space_normals);
+    source.normals = NormalKind::camera;
+    EXPECT_TRUE(detect_roles(names, source).camera_space_normals);
+}
+
+TEST(Roles, TwoViewLayersWithTheSamePassesAreAskedFor) {
+    const auto names = layers({{"Hero.Normal", "XYZ"},
+                               {"Hero.Position", "XYZ"},
+                               {"Set.Normal", "XYZ"},
+                               {"Set.Position", "XYZ"},
+                               {"Set.Fog", "Z"}});
+    expect_mentions(error_of([&] { detect_roles(names); }), {"\"Hero\" and \"Set\"", "[gbuffer] layer = \"Hero\""});
+    GBufferSource source;
+    source.layer = "Set";
+    expect_channels(detect_roles(names, source), {{"normal.x", "Set.Normal.X"}, {"position.z", "Set.Position.Z"}});
+    source.layer = "Sets";
+    expect_mentions(error_of([&] { detect_roles(names, source); }), {"no view layer \"Sets\"", "\"Hero\", \"Set\""});
+    expect_channels(detect_roles(names, with_roles({{"normal", "Set.Normal"}})), {{"normal.x", "Set.Normal.X"}});
+}
+
+TEST(Roles, CryptomattesByTheHeadersNamesInWhateverOrder) {
+    const auto names = layers({{"Z", "R"}, {"ids02", "RGBA"}, {"ids00", "RGBA"}, {"ids01", "RGBA"}, {"ids04", "RGBA"}});
+    EXPECT_FALSE(detect_roles(names).has_role("cryptomatte"));
+    Metadata header;
+    header.set("cryptomatte/1234567/name", "ids");
+    const auto map = detect_roles(names, {}, header_hints(header));
+    EXPECT_EQ(map.cryptomatte_layer, "ids");
+    EXPECT_EQ(map.cryptomatte_ranks, 6);
+    expect_channels(map, {{"crypto.id0", "ids00.R"}, {"crypto.id2", "ids01.R"}, {"crypto.coverage5", "ids02.A"}});
+    EXPECT_EQ(detect_roles(names, with_roles({{"cryptomatte", "ids"}}), header_hints(header)).cryptomatte_ranks, 6);
+}
+
+TEST(Roles, MitsubasTextureCoordinatesGrowDownwards) {
+    const auto names = layers({{"sh_normal", "XYZ"}, {"uv", "UV"}, {"dd", "T"}});
+    EXPECT_TRUE(detect_roles(names).v_down);
+    EXPECT_FALSE(detect_roles(layers({{"N", "XYZ"}, {"uv", "UV"}})).v_down);
+    GBufferSource source;
+    source.v = VDirection::up;
+    EXPECT_FALSE(detect_roles(names, source).v_down);
 }
 
 TEST(Roles, OwnPlaneNames) {
@@ -157,11 +215,11 @@ TEST(Roles, OwnPlaneNames) {
 }
 
 TEST(Roles, OverridesByLayerChannelAndPlane) {
-    const auto map = detect_roles(blender_channels, {{"normal", "ViewLayer.Position"},
-                                                     {"depth", "ViewLayer.UV.A"},
-                                                     {"uv.v", "ViewLayer.UV.A"},
-                                                     {"object", "none"},
-                                                     {"cryptomatte", "CryptoObject"}});
+    const auto map = detect_roles(blender_channels, with_roles({{"normal", "ViewLayer.Position"},
+                                                                {"depth", "ViewLayer.UV.A"},
+                                                                {"uv.v", "ViewLayer.UV.A"},
+                                                                {"object", "none"},
+                                                                {"cryptomatte", "CryptoObject"}}));
     expect_channels(map, {{"normal.x", "ViewLayer.Position.X"},
                           {"depth", "ViewLayer.UV.A"},
                           {"uv.u", "ViewLayer.UV.U"},
@@ -171,19 +229,19 @@ TEST(Roles, OverridesByLayerChannelAndPlane) {
 
 TEST(Roles, OverridesThatMatchNothingNameTheNearest) {
     expect_mentions(error_of([] {
-                        detect_roles(blender_channels, {{"normal", "ViewLayer.Norml"}});
+                        detect_roles(blender_channels, with_roles({{"normal", "ViewLayer.Norml"}}));
                     }),
                     {"normal = \"ViewLayer.Norml\"", "nearest name: \"ViewLayer.Normal\"", "ViewLayer.Position.XYZ"});
     expect_mentions(error_of([] {
-                        detect_roles(blender_channels, {{"norml", "x"}});
+                        detect_roles(blender_channels, with_roles({{"norml", "x"}}));
                     }),
                     {"\"norml\" is not a role", "nearest: \"normal\""});
     expect_mentions(error_of([] {
-                        detect_roles(blender_channels, {{"normal", "ViewLayer.Depth.Z"}});
+                        detect_roles(blender_channels, with_roles({{"normal", "ViewLayer.Depth.Z"}}));
                     }),
                     {"needs 3 components"});
     expect_mentions(error_of([] {
-                        detect_roles(blender_channels, {{"cryptomatte", "CryptoMaterial"}});
+                        detect_roles(blender_channels, with_roles({{"cryptomatte", "CryptoMaterial"}}));
                     }),
                     {"nearest name: \"ViewLayer.CryptoObject\""});
 }

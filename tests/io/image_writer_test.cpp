@@ -249,5 +249,60 @@ TEST(AtomicFile, NamedTemporariesAreRemovedToo) {
     }
 }
 
+TEST(ImageWriter, IntegersAreStoredAsSuch) {
+    TempFolder folder;
+    for (const bool half : {false, true}) {
+        ImageOptions options;
+        options.half = half;
+        options.whole = {"id"};
+        const std::vector<std::uint32_t> numbers{0, 16777217, 4294967295u};
+        std::vector<float> bits, values{1, 2.5f, -3};
+        for (const std::uint32_t number : numbers) bits.push_back(std::bit_cast<float>(number));
+        ImageWriter writer(folder / "o.exr", {3, 1}, {"id", "N.X"}, options);
+        const std::vector<const float*> planes{bits.data(), values.data()};
+        writer.write_rows(0, 1, planes);
+        writer.finish();
+        const GBufferReader reader(folder / "o.exr");
+        EXPECT_EQ(reader.channel_type("id"), ChannelType::whole);
+        EXPECT_EQ(reader.channel_type("N.X"), half ? ChannelType::half : ChannelType::single);
+        std::vector<float> read_bits(3), read_values(3);
+        const std::vector<std::string> names{"bits:id", "channel:N.X"};
+        const std::vector<float*> out{read_bits.data(), read_values.data()};
+        reader.read_rows(0, 1, names, out);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(std::bit_cast<std::uint32_t>(read_bits[i]), numbers[i]);
+        EXPECT_EQ(read_values, values);
+    }
+}
+
+TEST(ImageWriter, OverscanIsKeptInExrAndCutOffInPng) {
+    TempFolder folder;
+    ImageOptions options;
+    options.window = FrameWindow{-1, -2, {3, 2}};
+    options.png = PngEncoding::linear;
+    std::vector<float> pixels;
+    for (int i = 0; i < 6 * 5; ++i) pixels.push_back(static_cast<float>(i) / 32);
+    for (const char* name : {"o.exr", "o.png"}) {
+        ImageWriter writer(folder / name, {6, 5}, {"Y"}, options);
+        for (std::uint32_t row = 0; row < 5; ++row) {
+            const std::vector<const float*> planes{pixels.data() + 6 * row};
+            writer.write_rows(row, row + 1, planes);
+        }
+        writer.finish();
+        auto input = OIIO::ImageInput::open((folder / name).string());
+        ASSERT_TRUE(input);
+        const auto& spec = input->spec();
+        const bool exr = std::string(name) == "o.exr";
+        EXPECT_EQ(spec.width, exr ? 6 : 3);
+        EXPECT_EQ(spec.height, exr ? 5 : 2);
+        EXPECT_EQ(spec.x, exr ? -1 : 0);
+        EXPECT_EQ(spec.y, exr ? -2 : 0);
+        EXPECT_EQ(spec.full_width, 3);
+        std::vector<float> read(static_cast<std::size_t>(spec.width * spec.height));
+        ASSERT_TRUE(input->read_image(0, 0, 0, 1, OIIO::TypeFloat, read.data()));
+        EXPECT_NEAR(read[0], exr ? pixels[0] : pixels[2 * 6 + 1], 1e-2);
+        EXPECT_NEAR(read.back(), exr ? pixels.back() : pixels[3 * 6 + 3], 1e-2);
+    }
+}
+
 }  // namespace
 }  // namespace wrinkle

@@ -48,7 +48,7 @@ TEST(Info, CountsWhatCannotBeUsed) {
     EXPECT_EQ(depth.min, 1);
     EXPECT_EQ(depth.max, 10);
     EXPECT_FALSE(info.camera);
-    expect_mentions(info.camera_problem, {"the header has no camera"});
+    expect_mentions(info.camera_problem, {"no f.exr.camera.json", "the header has none", "without a position pass"});
 }
 
 TEST(Info, SaysWhatEachUseLacks) {
@@ -73,6 +73,31 @@ TEST(Info, SaysWhatEachUseLacks) {
     write_exr(folder / "n.exr", 4, 4, {"R", "G", "B"});
     EXPECT_EQ(use_of(gather_info({.file = folder / "n.exr", .roles = {}}), "decal").missing,
               (Names{"normal", "depth or position", "camera"}));
+}
+
+// What `run` refuses is not called ready.
+TEST(Info, ACameraOfAnotherFrameIsNoCamera) {
+    TempFolder folder;
+    const std::filesystem::path data = std::filesystem::path(WRINKLE_SOURCE_DIR) / "data/gbuffer";
+    CameraSource camera;
+    camera.inline_camera = Camera::look_at({9, 9, 9}, {0, 0, 0}, {0, 0, 1}, 1, 1.5);
+    const auto info = gather_info({.file = data / "small.exr", .roles = {}}, camera);
+    expect_mentions(info.camera_problem, {"does not fit", "from = \"positions\" solves fits within"});
+    for (const Readiness& use : readiness(info))
+        EXPECT_TRUE(std::ranges::find(use.missing, "camera that fits the positions") != use.missing.end()) << use.use;
+}
+
+TEST(Info, LargeFramesAreMeasuredByRowsSpreadOverThem) {
+    TempFolder folder;
+    std::vector<std::string> names{"N.X", "N.Y", "N.Z", "Z", "id"};
+    for (int i = 0; i < 60; ++i) names.push_back("extra" + std::to_string(i));
+    const auto pixel = [](int c, int x, int) { return c == 4 ? (x % 4 == 0 ? 2.5f : 3.0f) : 1.0f; };
+    write_exr(folder / "f.exr", 1024, 1024, names, pixel);
+    const auto info = gather_info({.file = folder / "f.exr", .roles = {}});
+    EXPECT_LT(info.measured, info.pixels());
+    EXPECT_GT(info.measured, info.pixels() / 8);
+    EXPECT_EQ(stats_of(info, "object").mixed, info.measured / 4);
+    EXPECT_EQ(info.types.front(), ChannelType::single);
 }
 
 TEST(Info, CommittedBlenderFrame) {

@@ -163,12 +163,127 @@ TEST(TextureFile, ChannelsThatDoNotFit) {
     expect_mentions(error_of([&] { load_texture(folder / "grey.png", ImageUse::normal); }),
                     {"grey.png: has 1 channel;", "needs 3", "height_map"});
     write_exr(folder / "xy.exr", 2, 2, {"X", "Y"});
-    expect_mentions(error_of([&] { load_texture(folder / "xy.exr", ImageUse::scalar); }), {"has 2 channels"});
+    expect_mentions(error_of([&] { load_texture(folder / "xy.exr", ImageUse::scalar); }),
+                    {"\"X\", \"Y\" could be the heights", "say which"});
     auto grey_alpha = make_spec(2, 2, {"Y", "A"}, OIIO::TypeUInt8);
     grey_alpha.alpha_channel = 1;
     write_image(folder / "ya.png", {{grey_alpha, [](int, int, int) { return 1.0f; }}});
     EXPECT_EQ(load_texture(folder / "ya.png", ImageUse::scalar).at(0, 0, 0), 1.0f);
     expect_mentions(error_of([&] { load_texture(folder / "ya.png", ImageUse::normal); }), {"grey and alpha"});
+}
+
+TEST(TextureFile, ZeroToOneIsTheDisplayWindow) {
+    TempFolder folder;
+    auto crop = make_spec(4, 4, {"Y"}), overscan = make_spec(12, 12, {"Y"});
+    crop.x = crop.y = 2, overscan.x = overscan.y = -2;
+    for (auto* spec : {&crop, &overscan}) spec->full_width = spec->full_height = 8;
+    const auto value = [](int x, int y) { return static_cast<float>(10 * y + x); };
+    write_image(folder / "crop.exr", {{crop, [&](int, int x, int y) { return value(x + 2, y + 2); }}});
+    write_image(folder / "over.exr", {{overscan, [&](int, int x, int y) { return value(x - 2, y - 2); }}});
+    const Image inner = load_texture(folder / "crop.exr", ImageUse::scalar);
+    const Image outer = load_texture(folder / "over.exr", ImageUse::scalar);
+    ASSERT_EQ(inner.width, 8);
+    ASSERT_EQ(outer.height, 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+            const bool inside = x >= 2 && x < 6 && y >= 2 && y < 6;
+            EXPECT_EQ(inner.at(x, 7 - y, 0), inside ? value(x, y) : 0);
+            EXPECT_EQ(outer.at(x, 7 - y, 0), value(x, y));
+        }
+}
+
+TEST(TextureFile, OfSeveralLayersTheOneThatFits) {
+    TempFolder folder;
+    const auto number = [](int c, int, int) { return static_cast<float>(c) / 8; };
+    write_exr(folder / "n.exr", 2, 2, {"Depth.Z", "Normal.X", "Normal.Y", "Normal.Z"}, number);
+    EXPECT_FLOAT_EQ(load_texture(folder / "n.exr", ImageUse::object_normal).at(0, 0, 0), 1.0f / 8);
+    write_exr(folder / "h.exr", 2, 2, {"A", "coverage", "displacement"}, number);
+    EXPECT_FLOAT_EQ(load_texture(folder / "h.exr", ImageUse::scalar).at(0, 0, 0), 2.0f / 8);
+    write_exr(folder / "a.exr", 2, 2, {"A"}, number);
+    expect_mentions(error_of([&] { load_texture(folder / "a.exr", ImageUse::scalar); }), {"nothing but alpha"});
+    write_exr(folder / "two.exr", 2, 2, {"a.X", "a.Y", "a.Z", "b.X", "b.Y", "b.Z"}, number);
+    expect_mentions(error_of([&] { load_texture(folder / "two.exr", ImageUse::normal); }),
+                    {"two.exr: \"a\", \"b\" could be the normals", "layer = "});
+    TextureUse use{.file = folder / "two.exr", .content = Content::object_normal};
+    use.layer = "b";
+    EXPECT_FLOAT_EQ(load_bump(use).at(0, 0, 1), 4.0f / 8);
+    use.layer = "c";
+    expect_mentions(error_of([&] { load_bump(use); }), {"there is no layer \"c\"", "a.XYZ, b.XYZ"});
+    use.layer.clear();
+    use.channels = {"b.Z", "b.X", "a.Y"};
+    EXPECT_FLOAT_EQ(load_bump(use).at(0, 0, 0), 5.0f / 8);
+    EXPECT_FLOAT_EQ(load_bump(use).at(0, 0, 2), 1.0f / 8);
+    use.channels = {"b.Q"};
+    expect_mentions(error_of([&] { load_bump(use); }), {"no channel \"b.Q\"", "did you mean \"b."});
+}
+
+TEST(TextureFile, TheZeroOfPackedIntegersMayBe128) {
+    TempFolder folder;
+    const auto stored = [](int c, int, int) { return (c == 0 ? 128.0f : c == 1 ? 1.0f : 255.0f) / 255; };
+    write_exr(folder / "n.png", 2, 2, {"R", "G", "B"}, stored, OIIO::TypeUInt8);
+    TextureUse use{.file = folder / "n.png", .content = Content::normal};
+    use.zero = 128;
+    const auto normal = [&](int c) { return 2 * load_bump(use).at(0, 0, c) - 1; };
+    EXPECT_NEAR(normal(0), 0, 1e-6);
+    EXPECT_NEAR(normal(1), -1, 1e-6);
+    EXPECT_NEAR(normal(2), 1, 1e-6);
+    write_exr(folder / "n.exr", 2, 2, {"R", "G", "B"}, stored);
+    use.file = folder / "n.exr";
+    expect_mentions(error_of([&] { load_bump(use); }), {"zero = 128 is for integers"});
+}
+
+// What is missing of these would be read as grey or black.
+TEST(TextureFile, TruncatedFilesOfFormatsWhoseReadersFillThem) {
+    TempFolder folder;
+    const auto noise = [](int, int x, int y) { return static_cast<float>(x * y * 7919 % 251) / 251; };
+    for (const char* name : {"cut.jpg", "cut.tif", "cut.tga"}) {
+        write_exr(folder / name, 64, 64, {"R", "G", "B"}, noise, OIIO::TypeUInt8);
+        EXPECT_NO_THROW(load_texture(folder / name, ImageUse::scalar)) << name;
+        std::filesystem::resize_file(folder / name, std::filesystem::file_size(folder / name) * 6 / 10);
+        expect_mentions(error_of([&] { load_texture(folder / name, ImageUse::scalar); }), {name, "truncated"});
+    }
+    std::string dds(128 + 16 * 16 * 4, '\0');
+    const std::vector<std::pair<std::size_t, std::uint32_t>> header{
+        {0, 0x20534444}, {4, 124},   {8, 0x1007},  {12, 16},        {16, 16},          {76, 32},     {80, 0x41},
+        {88, 32},        {92, 0xff}, {96, 0xff00}, {100, 0xff0000}, {104, 0xff000000}, {108, 0x1000}};
+    for (const auto& [at, word] : header)
+        for (std::size_t i = 0; i < 4; ++i) dds[at + i] = static_cast<char>(word >> (8 * i));
+    write_text(folder / "whole.dds", dds);
+    EXPECT_NO_THROW(load_texture(folder / "whole.dds", ImageUse::scalar));
+    write_text(folder / "cut.dds", dds.substr(0, 700));
+    expect_mentions(error_of([&] { load_texture(folder / "cut.dds", ImageUse::scalar); }),
+                    {"cut.dds: the DDS is truncated: 700 bytes of at least 1152"});
+    dds[80] = 4;
+    dds.replace(84, 4, "DX10");
+    dds[128] = 83;
+    write_text(folder / "bc5.dds", dds);
+    expect_mentions(error_of([&] { load_texture(folder / "bc5.dds", ImageUse::normal); }),
+                    {"bc5.dds: a DDS of the kind DX10 (DXGI format 83)", "save it as PNG"});
+}
+
+TEST(TextureFile, TilesOfUdimBecomeOneImage) {
+    TempFolder folder;
+    const auto tile = [&](int number, float value) {
+        write_exr(folder / ("t." + std::to_string(number) + ".exr"), 2, 2, {"R", "G"},
+                  [=](int, int, int) { return value; });
+    };
+    tile(1001, 0.25f), tile(1003, 0.5f), tile(1011, 0.75f);
+    TextureUse use{.file = folder / "t.<UDIM>.exr",
+                   .content = Content::slope,
+                   .encoding = Encoding::sign,
+                   .unit = SlopeUnit::texture};
+    const Image slopes = load_bump(use);
+    ASSERT_EQ(slopes.width, 6);
+    ASSERT_EQ(slopes.height, 4);
+    EXPECT_FLOAT_EQ(slopes.at(0, 0, 0), 3 * 0.25f);  // the image spans three textures
+    EXPECT_FLOAT_EQ(slopes.at(0, 0, 1), 2 * 0.25f);
+    EXPECT_FLOAT_EQ(slopes.at(5, 1, 0), 3 * 0.5f);
+    EXPECT_FLOAT_EQ(slopes.at(1, 3, 1), 2 * 0.75f);
+    EXPECT_EQ(slopes.at(3, 0, 0), 0) << "no tile: flat";
+    write_exr(folder / "t.1002.exr", 4, 4, {"R", "G"});
+    expect_mentions(error_of([&] { load_bump(use); }), {"t.1002.exr: 4 x 4 texels", "have 2 x 2"});
+    use.file = folder / "u.<UDIM>.exr";
+    expect_mentions(error_of([&] { load_bump(use); }), {"there is no tile"});
 }
 
 TEST(TextureFile, NanAndInfNameTheirPixel) {

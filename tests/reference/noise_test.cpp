@@ -166,13 +166,13 @@ TEST(Shape, GradientIsTheDerivativeOfTheValue) {
 }
 
 TEST(Fractal, OctavesAboveTheFootprintsNyquistFrequencyFadeOut) {
-    EXPECT_EQ(octave_weight(0.25L), 1);
-    EXPECT_EQ(octave_weight(0.375L), 0.5L);
-    EXPECT_EQ(octave_weight(0.5L), 0);
+    EXPECT_EQ(octave_weight(0.5L), 1);
+    EXPECT_EQ(octave_weight(0.75L), 0.5L);
+    EXPECT_EQ(octave_weight(1.0L), 0);
     const Vec<real> p{0.3L, 0.6L, 0.9L};
     const Fractal<real> one{1, 1, 2, 0.5L}, six{1, 6, 2, 0.5L};
-    EXPECT_EQ(fractal_sum(one, p, 0.25L).value, fractal_sum(six, p, 0.25L).value);
-    EXPECT_EQ(fractal_sum(six, p, 0.5L).value, 0);
+    EXPECT_EQ(fractal_sum(one, p, 0.5L).value, fractal_sum(six, p, 0.5L).value);
+    EXPECT_EQ(fractal_sum(six, p, 1).value, 0);
 }
 
 }  // namespace

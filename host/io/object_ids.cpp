@@ -1,0 +1,78 @@
+#include "io/object_ids.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <set>
+
+namespace wrinkle::io {
+namespace {
+
+constexpr std::uint32_t kExact = 1u << 24;  // floats hold every whole number up to here
+constexpr std::uint32_t kExponentBit = 1u << 23;
+
+/// As Cryptomatte does: a bit of the exponent is flipped where the float would be zero, denormal, Inf or NaN.
+std::uint32_t normal_bits(std::uint32_t bits) {
+    const std::uint32_t exponent = bits >> 23 & 255;
+    return exponent == 0 || exponent == 255 ? bits ^ kExponentBit : bits;
+}
+
+float label_of(std::uint32_t number) {
+    return number <= kExact ? static_cast<float>(number) : std::bit_cast<float>(normal_bits(number));
+}
+
+bool is_whole(double number) { return number == std::floor(number); }
+
+/// The whole number that a float is near enough to be meant; else the float itself. Sums of weights round in the last
+/// of 24 bits, and a few times over.
+float rounded(float value) {
+    constexpr float share = 1e-6f, least = 1e-3f;
+    const float near = std::nearbyint(value);
+    return std::abs(value - near) <= std::max(least, share * std::abs(value)) ? near : value;
+}
+
+}  // namespace
+
+float object_label(double number) {
+    const bool has_32_bits = number > kExact && number <= static_cast<double>(UINT32_MAX) && is_whole(number);
+    return has_32_bits ? label_of(static_cast<std::uint32_t>(number)) : static_cast<float>(number);
+}
+
+double object_number(float label) {
+    const bool itself = std::abs(label) <= static_cast<float>(kExact) && is_whole(label);
+    if (itself) return label;
+    const auto bits = std::bit_cast<std::uint32_t>(label);
+    // Few labels stand for two numbers, one of them with a flipped bit; that one is more likely than the other.
+    const std::uint32_t exponent = bits >> 23 & 255;
+    return exponent == 1 || exponent == 254 ? bits ^ kExponentBit : bits;
+}
+
+bool is_mixed_object(float stored) { return std::isfinite(stored) && !is_whole(rounded(stored)); }
+
+ObjectStorage object_storage(std::span<const float> sample) {
+    constexpr std::size_t few = 16, repeats = 20;
+    std::size_t shown = 0, mixed = 0;
+    std::set<float> different;
+    for (const float value : sample) {
+        if (!std::isfinite(value) || value == 0) continue;
+        if (!std::isnormal(value)) return ObjectStorage::bits;
+        ++shown;
+        if (!is_mixed_object(value)) continue;
+        ++mixed;
+        different.insert(value);
+    }
+    const bool bits = 2 * mixed > shown && different.size() <= std::max(few, mixed / repeats);
+    return bits ? ObjectStorage::bits : ObjectStorage::single;
+}
+
+void label_objects(std::span<float> values, ObjectStorage storage) {
+    for (float& value : values) {
+        if (storage != ObjectStorage::single)
+            value = label_of(std::bit_cast<std::uint32_t>(value));
+        else if (std::isfinite(value))
+            value = object_label(rounded(value));
+    }
+}
+
+}  // namespace wrinkle::io

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/info.h"
+#include "wrinkle/scene.h"
+
+namespace wrinkle {
+
+/// Why texture coordinates of a frame give no, or bad, derivatives; empty: they are good, or there are none.
+std::string uv_problem(const GBufferInfo& info);
+
+/// A line for whatever in a frame spoils layers of the scene without being wrong.
+std::vector<std::string> frame_warnings(const Scene& scene, const GBufferReader& reader);
+
+}  // namespace wrinkle
