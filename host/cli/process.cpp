@@ -135,7 +135,9 @@ void add_limit_options(CLI::App& app) {
                     .volume_reader = "/proc/self/exe"});
         memory_limit();  // says now what is wrong with WRINKLE_MEMORY
     });
-    for (CLI::App* command : app.get_subcommands({})) command->fallthrough();  // they may stand behind one as well
+    for (CLI::App* command :
+         app.get_subcommands({}))  // they may stand behind one as well, but for one that hands all on
+        if (!command->get_prefix_command()) command->fallthrough();
 }
 
 }  // namespace wrinkle::cli

@@ -26,7 +26,7 @@ inline Cases projector_golden_cases() {
         put(decal.to_box_x, x), put(decal.to_box_y, y);
         decal.strength[0] = decal.strength[1] = decal.opacity = 1;
         const V z = Random::rounded(normalize(cross(x, y)));
-        put(decal.to_box_z, z), c.out("normal", normalize(z - g));
+        put(decal.to_box_z, z), c.out("normal", normalize(normalize(z) - g));
         const auto* numbers = reinterpret_cast<const double*>(&decal);
         c.data.records_per_row = sizeof(wr_projector) / sizeof(double);
         c.data.records.insert(c.data.records.end(), numbers, numbers + c.data.records_per_row);

@@ -118,7 +118,7 @@ TEST(BadTexture, ChannelsAndTexels) {
         return c == 0 && x == 2 && y == 1 ? std::numeric_limits<float>::quiet_NaN() : 0.5f;
     });
     write_text(place / "empty.png", "");
-    expect_texture_refused("height_map", "two.exr", {"two.exr", "2 channels"});
+    expect_texture_refused("height_map", "two.exr", {"two.exr", "\"R\", \"G\" could be the heights"});
     expect_texture_refused("normal_map", "one.exr", {"one.exr", "1 channel"});
     expect_texture_refused("height_map", "broken.exr", {"broken.exr", "NaN", "(2, 1)"});
     expect_texture_refused("triplanar", "empty.png", {"empty.png"});

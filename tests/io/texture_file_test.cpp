@@ -297,7 +297,8 @@ TEST(TextureFile, NanAndInfNameTheirPixel) {
 
 TEST(TextureFile, DamagedFiles) {
     TempFolder folder;
-    expect_mentions(error_of([&] { load_texture(folder / "none.png", ImageUse::scalar); }), {"none.png: there is no such file"});
+    expect_mentions(error_of([&] { load_texture(folder / "none.png", ImageUse::scalar); }),
+                    {"none.png: there is no such file"});
     write_text(folder / "empty.png", "");
     expect_mentions(error_of([&] { load_texture(folder / "empty.png", ImageUse::scalar); }), {"is empty"});
     write_text(folder / "text.png", "no png");

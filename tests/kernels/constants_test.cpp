@@ -57,7 +57,7 @@ TEST(Constants, TriplanarPlanesUnderTheBiasHaveNoWeight) {
 }
 
 TEST(Constants, OctavesFadeOutTowardsNyquist) {
-    EXPECT_EQ(over({0, 0.25f, 0.375f, 0.5f, 9}, {"wr_octave_weight(v)"})[0], (Numbers{1, 1, 0.5, 0, 0}));
+    EXPECT_EQ(over({0, 0.5f, 0.75f, 1, 9}, {"wr_octave_weight(v)"})[0], (Numbers{1, 1, 0.5, 0, 0}));
 }
 
 TEST(Constants, RoughnessHasAFloorAndTheRatioABias) {

@@ -172,7 +172,7 @@ TEST(Fractal, OctavesAboveTheFootprintsNyquistFrequencyFadeOut) {
     const Vec<real> p{0.3L, 0.6L, 0.9L};
     const Fractal<real> one{1, 1, 2, 0.5L}, six{1, 6, 2, 0.5L};
     EXPECT_EQ(fractal_sum(one, p, 0.5L).value, fractal_sum(six, p, 0.5L).value);
-    EXPECT_EQ(fractal_sum(six, p, 1).value, 0);
+    EXPECT_EQ(fractal_sum(six, p, 1.0L).value, 0);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ Layer layer_of(Bump bump, double scale) {
 }
 
 const fs::path cobbles = data_folder / "textures/cobbles_height.png", weave = data_folder / "textures/weave_normal.png";
-const UvMapping planar{.source = UvSource::planar, .scale = {0.5, 0.5}};
+const UvMapping planar{.source = UvSource::planar, .scale = {0.08, 0.08}};
 
 struct AreaCase {
     std::string name;
@@ -97,23 +97,24 @@ struct AreaCase {
     double median, share;  ///< bounds: degrees; of the error of one point a pixel
 };
 
-/// One of every kind that varies over a pixel. Bounds are about 1.5 times what was measured.
+/// One of every kind that varies over a pixel. Bounds are about 1.5 times what was measured; ridges weigh
+/// octaves by one another, and gain least.
 std::vector<AreaCase> area_cases() {
-    const Layer height = layer_of(HeightMapLayer{{.file = cobbles}, planar}, 0.05);
+    const Layer height = layer_of(HeightMapLayer{{.file = cobbles}, planar}, 0.3);
     const Layer normal = layer_of(NormalMapLayer{{.file = weave, .content = Content::normal}, planar}, 1);
-    NoiseLayer sum{.frequency = 2, .octaves = 5}, ridges = sum;
+    NoiseLayer sum{.frequency = 0.4, .octaves = 4}, ridges = sum;
     ridges.fractal = FractalKind::ridged;
     Layer masked = height;
     masked.mask.texture = MaskTexture{.file = cobbles, .uv = planar};
-    DecalLayer box{.texture = {.file = cobbles}, .center = {0, 0, 0}, .half_size = {1.3, 2.5, 0.5}};
-    return {{"height_map", height, 3, 0.5},
-            {"height_map by uv", layer_of(HeightMapLayer{{.file = cobbles}, {.scale = {2, 2}}}, 0.05), 3, 0.5},
-            {"normal_map", normal, 3, 0.6},
-            {"noise", layer_of(sum, 0.06), 3, 0.6},
-            {"ridged noise", layer_of(ridges, 0.06), 4, 0.7},
-            {"triplanar", layer_of(TriplanarLayer{.texture = {.file = cobbles}, .tile = 0.5}, 0.05), 3, 0.6},
-            {"masked by texture", masked, 3, 0.7},
-            {"decal", layer_of(box, 0.2), 1, 0.9}};
+    DecalLayer box{.texture = {.file = cobbles}, .center = {0, 0, 0}, .half_size = {5, 5, 0.5}};
+    return {{"height_map", height, 2, 0.3},
+            {"height_map by uv", layer_of(HeightMapLayer{{.file = cobbles}, {.scale = {0.32, 0.32}}}, 0.3), 2.1, 0.3},
+            {"normal_map", normal, 0.9, 0.3},
+            {"noise", layer_of(sum, 0.3), 1.2, 0.4},
+            {"ridged noise", layer_of(ridges, 0.2), 4, 0.9},
+            {"triplanar", layer_of(TriplanarLayer{.texture = {.file = cobbles}, .tile = 12}, 0.3), 2.4, 0.35},
+            {"masked by texture", masked, 1, 0.35},
+            {"decal", layer_of(box, 0.3), 2, 0.3}};
 }
 
 class AreaCases : public testing::TestWithParam<AreaCase> {};
@@ -122,8 +123,8 @@ TEST_P(AreaCases, AreTheMeanOverThePixel) {
     const auto& [name, layer, median, share] = GetParam();
     const std::vector<Area> areas = brute_force(scene_of(layer));
     const HostFrame frame = ground(kSize);
-    const Spread many = errors(evaluate_on(frame, scene_of(layer)), areas);
-    const Spread one = errors(evaluate_on(frame, scene_of(layer, 1)), areas);
+    const Spread many = errors(evaluate_area(frame, scene_of(layer)), areas);
+    const Spread one = errors(evaluate_area(frame, scene_of(layer, 1)), areas);
     print(name + ": tilt", tilts(areas), "degrees"), print(name + ": 16 taps", many, "degrees");
     print(name + ": 1 tap", one, "degrees");
     EXPECT_EQ(many.non_finite, 0u);
@@ -147,9 +148,11 @@ double sigma(const std::vector<Area>& areas) {
 
 TEST(Area, CovarianceIsThatOfTheSlopes) {
     for (const AreaCase& each : area_cases()) {
-        if (each.name == "ridged noise" || each.name == "masked by texture" || each.name == "triplanar") continue;
+        if (each.name == "ridged noise" || each.name == "masked by texture" || each.name == "triplanar" ||
+            each.name == "decal")
+            continue;  // these tell what differs between points only
         const std::vector<Area> areas = brute_force(scene_of(each.layer));
-        const Pixels got = evaluate_on(ground(kSize), scene_of(each.layer));
+        const Pixels got = evaluate_area(ground(kSize), scene_of(each.layer));
         std::vector<Area> found = areas;
         double correlation = 0;
         for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -168,7 +171,7 @@ TEST(Area, RoughnessGrowsByTheVariance) {
     Scene scene = scene_of(area_cases()[0].layer);
     scene.output.roughness = true;
     scene.lighting.roughness = 0.3;
-    const Pixels got = evaluate_on(ground(kSize), scene);
+    const Pixels got = evaluate_area(ground(kSize), scene);
     for (std::size_t i = 0; i < got.at("roughness").size(); ++i) {
         const double variance = double{got.at("slope_covariance.xx")[i]} + got.at("slope_covariance.yy")[i];
         EXPECT_NEAR(got.at("roughness")[i], std::min(std::pow(0.0081 + variance, 0.25), 1.0), 1e-5);
@@ -192,11 +195,11 @@ TEST(Area, LightFallsOnEveryPoint) {
     scene.lighting.lights = {Light{.color = {3, 3, 3}, .direction = {0.66, 0.72, -0.42}}};
     const std::vector<Area> areas = brute_force(scene);
     const HostFrame frame = ground(kSize);
-    const double at_points = decibels(evaluate_on(frame, scene), areas);
+    const double at_points = decibels(evaluate_area(frame, scene), areas);
     scene.filter.light_mean = true;
-    const double of_mean = decibels(evaluate_on(frame, scene), areas);
+    const double of_mean = decibels(evaluate_area(frame, scene), areas);
     scene.filter = {.taps = 1};
-    const double one = decibels(evaluate_on(frame, scene), areas);
+    const double one = decibels(evaluate_area(frame, scene), areas);
     fmt::print("lit: {:.1f} dB; by the mean normal {:.1f}; of one point {:.1f}\n", at_points, of_mean, one);
     EXPECT_GT(at_points, 36);
     EXPECT_GT(at_points, of_mean + 3);
@@ -210,30 +213,22 @@ TEST(Area, RoundFootprintsTakeOnePoint) {
     const Layer height = area_cases()[0].layer;
     Scene many = scene_of(height), one = scene_of(height, 1);
     many.output = one.output = {};
-    const Pixels a = evaluate_on(frame, many), b = evaluate_on(frame, one);
+    const Pixels a = evaluate_area(frame, many), b = evaluate_area(frame, one);
     EXPECT_LT(largest_difference(a, b), 2e-3);
-}
-
-TEST(Area, TableOfOneRowIsTheDecal) {
-    DecalLayer box{.texture = {.file = cobbles}, .center = {0, 0, 0}, .half_size = {1.3, 2.5, 0.5}};
-    Projector row{.center = box.center, .half_size = box.half_size, .falloff = {0, 0, 0}};
-    row.falloff = {box.falloff, box.falloff, box.falloff}, row.angle_fade = box.angle_fade;
-    Scene table = table_scene({row});
-    std::get<DecalsLayer>(table.layers[0].bump).textures = {{.file = cobbles}};
-    const HostFrame frame = ground({96, 64});
-    EXPECT_LT(largest_difference(evaluate_on(frame, table), evaluate_on(frame, scene_of(layer_of(box, 1)))), 1e-5);
 }
 
 TEST(Area, NoDecalOfATableIsLost) {
     const HostFrame frame = ground({96, 64});
     const std::vector<Projector> rows = on_surfaces(frame, 60, 0.05, 1, 3);
-    Scene table = table_scene(rows), alone = table;
+    Scene table = table_scene(rows);
+    table.filter.taps = 16;
+    Scene alone = table;
     table.output = {.surface_gradient = true}, alone.output = table.output;
-    const Pixels all = evaluate_on(frame, table);
+    const Pixels all = evaluate_area(frame, table);
     std::vector<V> sum(frame.count());
     for (const Projector& row : rows) {  // a table of one row has nothing to bin apart
         std::get<DecalsLayer>(alone.layers[0].bump).rows = std::make_shared<const std::vector<Projector>>(1, row);
-        const Pixels one = evaluate_on(frame, alone);
+        const Pixels one = evaluate_area(frame, alone);
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + vec_at(one, "surface_gradient", i);
     }
     for (std::size_t i = 0; i < sum.size(); ++i)
@@ -245,7 +240,7 @@ TEST(Area, SequencesOfStagesAddTheirCovariances) {
     height.name = "height", resolve.bump = ResolveLayer{}, resolve.name = "resolve", noise.name = "noise";
     Scene both = scene_of(height), first = both;
     both.layers = {height, resolve, noise};
-    const Pixels a = evaluate_on(ground(kSize), both), b = evaluate_on(ground(kSize), first);
+    const Pixels a = evaluate_area(ground(kSize), both), b = evaluate_area(ground(kSize), first);
     double grown = 0;
     for (std::size_t i = 0; i < kSize.width * kSize.height; ++i) {
         EXPECT_GE(a.at("slope_covariance.xx")[i] + 1e-6f, b.at("slope_covariance.xx")[i]);

@@ -8,7 +8,7 @@
 /// Tables of random decals on frames.
 namespace wrinkle::test {
 
-/// A scene of one table whose decals hold heights.
+/// A scene of one table whose decals hold heights, with one point a pixel.
 inline Scene table_scene(std::vector<Projector> rows) {
     DecalsLayer layer;
     layer.textures = {{.file = data_folder / "textures/seal_height.png"}};
@@ -17,6 +17,7 @@ inline Scene table_scene(std::vector<Projector> rows) {
     scene.layers.resize(1);
     scene.layers[0].name = "many";
     scene.layers[0].bump = std::move(layer);
+    scene.filter.taps = 1;
     return scene;
 }
 

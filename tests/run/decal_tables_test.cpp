@@ -35,7 +35,7 @@ TEST(DecalTables, ReplaceByPriorityWhateverTheirOrder) {
     std::ranges::reverse(rows);
     EXPECT_EQ(largest_difference(evaluate_on(frame, scene), evaluate_on(frame, table_scene(rows))), 0);
     const Pixels got = evaluate_on(frame, scene);
-    expect_within("replacing decals", normal_error(got, Truth(frame, scene)), {2e-5, 1e-3, 2e-2}, "degrees");
+    expect_within("replacing decals", normal_error(got, Truth(frame, scene)), {2e-5, 7e-3, 6e-2}, "degrees");
 }
 
 /// The same boxes, as layers and as rows of a table.
@@ -156,7 +156,7 @@ TEST(DecalTables, OfEveryShapeAndContent) {
                 const Truth truth(frame, scene);
                 const Pixels got = evaluate_on(frame, scene);
                 const auto name = fmt::format("shape {}, {}, {}", int(shape), file, wrap == Wrap::clamp ? "" : "tiled");
-                expect_within(name, normal_error(got, truth), {2e-5, 5e-3, 0.1}, "degrees");
+                expect_within(name, normal_error(got, truth), {6e-5, 5e-3, 0.1}, "degrees");
                 EXPECT_GT(bumped_pixels(truth), 200u) << name;
             }
 }
@@ -174,7 +174,7 @@ TEST(DecalTables, OfRowsWithMasks) {
     }
     const Scene scene = table_scene(rows);
     const Truth truth(frame, scene);
-    expect_within("rows with masks", normal_error(evaluate_on(frame, scene), truth), {2e-5, 5e-3, 0.1}, "degrees");
+    expect_within("rows with masks", normal_error(evaluate_on(frame, scene), truth), {6e-5, 5e-3, 0.1}, "degrees");
     for (Projector& row : rows) row.object.reset(), row.cryptomatte.clear();
     const Truth unmasked(frame, table_scene(rows));
     std::size_t changed = 0;

@@ -15,6 +15,7 @@ const V slanted = normalize(V{0.1, -0.2, 1});
 /// A scene of a normal map on the UV plane, a planar height map and noise, with textures of data/.
 Scene small_scene() {
     Scene scene;
+    scene.filter.taps = 1;
     NormalMapLayer weave;
     weave.texture.file = data_folder / "textures/weave_normal.png";
     HeightMapLayer cobbles;
@@ -276,6 +277,7 @@ TEST(Frames, InvertedTextureMaskIsZeroWithoutUvDerivative) {
     frame.add("object");
     frame.pixels.at("object")[40] = 1;  // the pixel in the middle is an object of its own, without neighbours
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].bump = ConstantLayer{{0.3, 0, 0}};
     scene.layers[0].mask.texture = MaskTexture{data_folder / "textures/seal_height.png", {}};

@@ -16,6 +16,7 @@ HostFrame plane() {
 
 Scene tilted() {
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].bump = ConstantLayer{{0.5, 0, 0}};
     scene.output.marked = true;

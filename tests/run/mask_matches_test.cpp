@@ -39,6 +39,7 @@ Layer table(std::vector<Projector> rows) {
 
 Scene scene_of(std::vector<Layer> layers) {
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers = std::move(layers);
     return scene;
 }

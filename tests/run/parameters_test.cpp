@@ -178,6 +178,7 @@ void expect_mentions(const std::string& text, const std::vector<std::string>& pa
 TEST(Parameters, StayWithinTheStructure) {
     const HostFrame frame = small_frame();
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(2);
     scene.layers[0].name = "grain";
     scene.layers[0].bump = NoiseLayer{.octaves = 2};

@@ -110,6 +110,7 @@ TEST(Enqueue, WorksOnTheCallersQueueAndBuffersAfterTheCallersEvents) {
 
     const HostFrame frame = plane();
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].bump = ConstantLayer{{0.3, 0.1, 0}};
     Pass pass = evaluate(adopted, scene, frame.frame);
@@ -140,6 +141,7 @@ TEST(Enqueue, WorksOnTheCallersQueueAndBuffersAfterTheCallersEvents) {
 TEST(Refused, PlanesMissingOrShort) {
     const HostFrame frame = plane();
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].bump = ConstantLayer{{0.3, 0.1, 0}};
     Pass pass = evaluate(device(), scene, frame.frame);
@@ -176,6 +178,7 @@ TEST(Refused, PlanesMissingOrShort) {
 TEST(Refused, CamerasAndFrames) {
     const HostFrame frame = plane();
     Scene scene;
+    scene.filter.taps = 1;
     Pass pass = evaluate(device(), scene, frame.frame);
     EXPECT_NO_THROW(pass.set_camera(reference::shifted_camera()));
     expect_refused(refusal([&] { pass.set_camera(orthographic_camera()); }), {"kind"});
@@ -196,6 +199,7 @@ TEST(Refused, CamerasAndFrames) {
 TEST(Refused, BandsWithoutTheRowsTheyNeed) {
     const HostFrame frame = plane();
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     NormalMapLayer weave;
     weave.texture.file = data_folder / "textures/weave_normal.png";

@@ -15,6 +15,7 @@ Turned turned(const V& normal) {
     const Camera camera = reference::tilted_camera();
     const HostFrame frame(plane_frame(camera, {64, 48}, normal), camera);
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     NormalMapLayer weave{.texture = {.file = data_folder / "textures/weave_normal.png", .content = Content::normal}};
     weave.uv.source = UvSource::planar, weave.uv.scale = {3, 3}, weave.uv.rotation = 0.5;

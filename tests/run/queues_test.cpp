@@ -117,6 +117,7 @@ TEST_F(OutOfOrder, WholeFramesFromHostMemory) {
 TEST_F(OutOfOrder, SeveralBandsFromHostMemory) {
     const HostFrame frame(plane_frame(test_camera(), {1201, 900}, {0, 0, 1}), test_camera());
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].bump = ConstantLayer{{0.3, 0.1, 0}};
     Pass pass = evaluate(queue_, scene, frame.frame);

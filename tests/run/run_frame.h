@@ -113,9 +113,15 @@ std::map<std::string, std::vector<T>> run(Pass& pass, const HostFrame& frame) {
     return out;
 }
 
-inline Pixels evaluate_on(const HostFrame& frame, const Scene& scene, const PassOptions& options = {}) {
+inline Pixels evaluate_area(const HostFrame& frame, const Scene& scene, const PassOptions& options = {}) {
     Pass pass = evaluate(device(), scene, frame.frame, options);
     return run(pass, frame);
+}
+
+/// With one point a pixel, as the references have.
+inline Pixels evaluate_on(const HostFrame& frame, Scene scene, const PassOptions& options = {}) {
+    scene.filter.taps = 1;
+    return evaluate_area(frame, scene, options);
 }
 
 template <class T>

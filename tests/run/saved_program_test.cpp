@@ -11,6 +11,7 @@ TEST(SavedProgram, OfAPassThatIsOnlyEnqueued) {
     const Variable folder("WRINKLE_CACHE_DIR", cache / "");
     const HostFrame frame = small_frame();
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].name = "tilt";
     scene.layers[0].bump = ConstantLayer{{0.1, 0, 0}};

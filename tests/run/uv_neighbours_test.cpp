@@ -51,6 +51,7 @@ TEST(UvNeighbours, FollowASurfaceThatCurvesAway) {
     const Size size{160, 120};
     const HostFrame frame = ball_frame(camera, size, false), known = ball_frame(camera, size, true);
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].name = "swell", scene.layers[0].footprint = false;
     scene.layers[0].bump = HeightMapLayer{.texture = {.file = data_folder / "textures/swell_height.png"}};

@@ -22,6 +22,7 @@ HostFrame golden_frame(Size size = {128, 96}) {
 
 Scene scene_of(VolumeLayer volume, double scale = 1) {
     Scene scene;
+    scene.filter.taps = 1;
     scene.layers.resize(1);
     scene.layers[0].name = "volume";
     scene.layers[0].bump = std::move(volume);

@@ -50,7 +50,8 @@ TEST_F(BadScene, UnknownKeys) {
     expect_problem_with("[outptu]\n", 5, {"\"outptu\"", "did you mean \"output\"?", "gbuffer, camera, layer"});
     expect_problem_with("[[layers]]\nkind = \"noise\"\n", 5, {"\"layers\" in the scene", "did you mean \"layer\"?"});
     expect_problem_with("[output]\nPNG = true\n", 6, {"unknown key \"PNG\" in [output]", "did you mean \"png\"?"});
-    expect_problem_with("[output]\nxyzzy = true\n", 6, {"unknown key \"xyzzy\" in [output]; known keys: surface_grad"});
+    expect_problem_with("[output]\nxyzzy = true\n", 6,
+                        {"unknown key \"xyzzy\" in [output]; known keys: roughness, slope_cov"});
     expect_problem_with("[lighting]\nambiant = [1, 1, 1]\n", 6, {"[lighting]", "\"ambient\"?"});
     expect_problem_with(height_map("uv = { scal = 2 }\n"), 8, {"uv of [[layer]] \"height_map 1\"", "\"scale\"?"});
     expect_problem_with(noise("\n[layer.mask]\nobjekt = 2\nobject = 2\n"), 9,
