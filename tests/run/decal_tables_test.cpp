@@ -174,7 +174,7 @@ TEST(DecalTables, OfRowsWithMasks) {
     }
     const Scene scene = table_scene(rows);
     const Truth truth(frame, scene);
-    expect_within("rows with masks", normal_error(evaluate_on(frame, scene), truth), {6e-5, 5e-3, 0.1}, "degrees");
+    expect_within("rows with masks", normal_error(evaluate_on(frame, scene), truth), {2e-5, 5e-3, 0.1}, "degrees");
     for (Projector& row : rows) row.object.reset(), row.cryptomatte.clear();
     const Truth unmasked(frame, table_scene(rows));
     std::size_t changed = 0;
