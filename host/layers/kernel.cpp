@@ -116,6 +116,7 @@ std::string emit(LayerText& at) {
         text = emit_texcoord(at.emitter, at.layer, own_uv, Wrap::clamp, at.who, at.section);
         if (l.uv->source == UvSource::aov) text += "        m = uv_valid ? m : (wr_real)(0);\n";
         coordinates = "c.st, c.dx, c.dy";
+        if (at.over_area() && l.over_uv) at.prepared += text;
     }
     std::string parameters;
     for (const auto& [name, value] : l.parameters)

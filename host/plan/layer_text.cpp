@@ -73,6 +73,7 @@ std::string LayerText::textured(const TextureUse& use, const char* declared) {
     if (texel_kind(use) != TexelKind::vector && tells_spread()) {
         const char* wrap = use.wrap == Wrap::clamp ? "wr_clamp" : "wr_repeat";
         section.operations += 58;
+        loses = true;
         text += fmt::format(
             "        wr_texture squares = wr_texture_at(texels, textures, {0});\n"
             "        wr_vec3 lost = wr_lost_spread(wr_texture_sample3(squares, {1}(c.st.x), {1}(c.st.y), {2}), "
@@ -92,7 +93,8 @@ std::string LayerText::slopes(const std::string& function, const std::string& ar
     section.operations += *exactly() ? kExactSlopes : kSlopes;
     std::string basis, text;
     const bool scaled = function == "scale_dependent" && over_area();
-    if (scaled && (!*exactly() || tells_spread()))
+    const bool spreads = scaled && loses;
+    if (scaled && (!*exactly() || spreads))
         basis = once("wr_slope_basis", "basis", "wr_slope_basis_of(n, dp_dx, dp_dy, c.dx, c.dy)");
     if (scaled && !*exactly())
         text =
@@ -102,7 +104,7 @@ std::string LayerText::slopes(const std::string& function, const std::string& ar
             "        wr_vec3 bump = wr_surface_gradient_{}{}(n, dp_dx, dp_dy, {});\n"
             "        g = wr_fma(bump, m * {}, g);\n",
             function, exactly(), arguments, strength());
-    return scaled ? text + spread(basis + ".s", basis + ".t") : text;
+    return spreads ? text + spread(basis + ".s", basis + ".t") : text;
 }
 
 std::string LayerText::volume(const std::string& gradient) {

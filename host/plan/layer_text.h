@@ -15,6 +15,7 @@ struct LayerText {
     /// What does not differ between the points of a pixel's area: declarations, and the statements that set them, which
     /// stand before the first point and are skipped where no pixel wants the layer. Both empty where it has one point.
     std::string declared{}, prepared{};
+    bool loses = false;  ///< `lost` is declared: what slopes vary by that are finer than a point's share of the area
 
     /// Kernel text of a number of the layer, or of three as a vector; `what`: for people to read.
     std::string number(const std::string& what, std::function<double(const Layer&)> of) {

@@ -1,21 +1,17 @@
 // Anyone's program can include any of the kernel files: each brings what it needs and may come twice, on every number
 // of lanes, in every precision, beside names of one's own.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "device/kernel_sources.h"
+#include "tests/kernels/clang_complaints.h"
 #include "tests/kernels/kernel_function.h"
 
 namespace wrinkle::test {
 namespace {
-
-const std::string kFolder = WRINKLE_SOURCE_DIR "/kernels";
 
 /// Names that engines use themselves, with another meaning than the kernels would give them.
 const char* const kOwnNames =
@@ -29,34 +25,17 @@ std::vector<std::string> kernel_files() {
     return names;
 }
 
-/// What clang says of a program, nothing when it is content.
-std::string complaints(const std::string& text, const std::string& flags) {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / fmt::format("wrinkle_include_{}.cl", ::getpid());
-    std::ofstream(file) << text;
-    const std::string command = fmt::format(
-        "{} -x cl -Xclang -finclude-default-header -Xclang -fdeclare-opencl-builtins -fsyntax-only -Wall "
-        "-Wextra -Wundef -Wno-unused-function -I{} {} {} 2>&1",
-        WRINKLE_CLANG, kFolder, flags, file.string());
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    std::string said;
-    char part[4096];
-    while (std::fgets(part, sizeof part, pipe) != nullptr) said += part;
-    if (::pclose(pipe) != 0 && said.empty()) said = "clang failed: " + command;
-    std::filesystem::remove(file);
-    return said;
-}
-
 class EveryKernelFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryKernelFile, CompilesAloneAndTwice) {
-    if (std::string(WRINKLE_CLANG).ends_with("NOTFOUND")) GTEST_SKIP() << "clang was not found by cmake";
+    if (!has_clang()) GTEST_SKIP() << "clang was not found by cmake";
     const std::string text = fmt::format("{0}#include \"{1}\"\n#include \"{1}\"\n", kOwnNames, GetParam());
     for (const char* language : {"CL1.2", "CL3.0"})
         for (const char* lanes : {"", "-DWR_LANES=8", "-DWR_LANES=16", "-DWR_LANES=16 -DWR_POCL_BUILTINS"})
             for (const char* precision : {"", "-DWR_FP64"}) {
-                const std::string flags = fmt::format("-cl-std={} {} {}", language, lanes, precision);
-                EXPECT_EQ(complaints(text, flags), "") << GetParam() << ", " << flags;
+                const std::string flags = fmt::format("-Wall -Wextra -Wundef -Wno-unused-function -cl-std={} {} {}",
+                                                      language, lanes, precision);
+                EXPECT_EQ(clang_complaints(text, flags), "") << GetParam() << ", " << flags;
             }
 }
 
@@ -85,7 +64,7 @@ TEST(KernelFiles, BuildFromTheFolderOnTheDevice) {
         "kernel void own(global float *out) { vec3 v = 1; out[0] = v.x + wr_lane(wr_zero3().x, 0); }\n";
     for (const int lanes : {1, 16}) {
         cl::Program program(device.context, text);
-        const std::string flags = fmt::format("-cl-std=CL1.2 -D WR_LANES={} -I {}", lanes, kFolder);
+        const std::string flags = fmt::format("-cl-std=CL1.2 -D WR_LANES={} -I {}", lanes, WRINKLE_SOURCE_DIR "/kernels");
         EXPECT_NO_THROW(program.build(device.device, flags.c_str()))
             << program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device);
     }
