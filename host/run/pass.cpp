@@ -31,7 +31,8 @@ void check(const std::map<std::string, Span>& planes, const std::vector<std::str
 }
 
 template <class T>
-void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::string, std::span<T>>& out) {
+void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::string, std::span<T>>& out,
+               const ToldShare& progress) {
     const std::size_t width = impl.size.width, height = impl.size.height;
     check(in, impl.plan.inputs, width * height, "input");
     check(out, impl.plan.outputs, width * height, "output");
@@ -59,6 +60,7 @@ void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::strin
             std::memcpy(out.at(name).data() + first * width, outputs.map<T>(name, CL_MAP_READ),
                         count * width * sizeof(T));
         outputs.unmap();
+        if (progress) progress(static_cast<double>(first + count) / static_cast<double>(height));
     }
     impl.save();
 }
@@ -88,13 +90,16 @@ void Pass::set_parameters(const Scene& scene) {
     guarded("set the parameters of a pass", [&] { impl_->set_parameters(scene); });
 }
 
-void Pass::run(const HostPlanes& in, const HostOutputs& out) {
-    guarded("run a pass", [&] { run_bands<float>(*impl_, in, out); });
+void run(Pass& pass, const HostPlanes& in, const HostOutputs& out, const ToldShare& progress) {
+    guarded("run a pass", [&] { run_bands<float>(pass.impl(), in, out, progress); });
 }
 
-void Pass::run(const HostPlanes& in, const HostDoubles& out) {
-    guarded("run a pass", [&] { run_bands<double>(*impl_, in, out); });
+void run(Pass& pass, const HostPlanes& in, const HostDoubles& out, const ToldShare& progress) {
+    guarded("run a pass", [&] { run_bands<double>(pass.impl(), in, out, progress); });
 }
+
+void Pass::run(const HostPlanes& in, const HostOutputs& out) { wrinkle::run(*this, in, out, {}); }
+void Pass::run(const HostPlanes& in, const HostDoubles& out) { wrinkle::run(*this, in, out, {}); }
 
 cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const std::vector<cl::Event>& wait) {
     return enqueue(in, out, {.first = 0, .count = impl_->size.height}, wait);

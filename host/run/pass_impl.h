@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "device/program.h"
 #include "plan/plan.h"
@@ -65,6 +66,12 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
 /// wrinkle::evaluate with textures from a store, for those who make several passes of a scene.
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
               TextureStore* store);
+
+/// Pass::run() that says after every band which share is done. What `progress` throws ends it; the rest of the outputs
+/// then holds what it held.
+using ToldShare = std::function<void(double)>;
+void run(Pass& pass, const HostPlanes& in, const HostOutputs& out, const ToldShare& progress);
+void run(Pass& pass, const HostPlanes& in, const HostDoubles& out, const ToldShare& progress);
 
 /// Whether a pass for one frame serves another, once it has its camera.
 bool same_shape(const Frame& a, const Frame& b);

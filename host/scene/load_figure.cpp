@@ -56,6 +56,7 @@ Figure load_figure(LayerKinds kinds, const std::filesystem::path& file) {
     Table root(document, values, "the figure", 1);
     Figure out;
     out.scene.file = file;
+    require_gbuffer(root);
     read_scene(root, kinds, out.scene);
     if (auto table = root.table("figure", "[figure]")) read_figure(*table, out);
     for (Table& table : root.tables("panel", 0)) read_panel(table, out, out.panels.emplace_back());

@@ -50,12 +50,18 @@ void read_lights(Table& root, Lighting& out) {
             line, "relight without light: add a [[light]], or set ambient in [lighting], or set relight = \"off\"");
 }
 
-/// A table that has to be there; `example` shows the least of it.
-void require_table(Table& root, const char* key, const char* example) {
-    if (!root.has(key)) root.document().problems.add(0, fmt::format("needs [{}], at least {}", key, example));
+void finish(Table& root) {
+    root.finish([](const std::string& key) {
+        return key == "figure" || key == "panel" ? "makes this a figure; draw it with \"wrinkle figures\"" : "";
+    });
+    root.document().problems.throw_if_any();
 }
 
 }  // namespace
+
+void require_gbuffer(Table& root) {
+    if (!root.has("gbuffer")) root.document().problems.add(0, "needs [gbuffer], at least file = \"frame.exr\"");
+}
 
 toml::table parse_scene_file(const std::filesystem::path& file) {
     const std::string text = file == "-" ? read_standard_input() : read_text(file, "a scene file"),
@@ -71,7 +77,6 @@ toml::table parse_scene_file(const std::filesystem::path& file) {
 }
 
 void read_scene(Table& root, LayerKinds kinds, Scene& out) {
-    if (!root.visits()) { require_table(root, "gbuffer", "file = \"frame.exr\""); }
     if (auto table = root.table("gbuffer", "[gbuffer]")) read_gbuffer(*table, out.gbuffer);
     if (auto table = root.table("camera", "[camera]", false)) read_camera(*table, out.camera);
     read_layers(root, kinds, out.layers);
@@ -87,11 +92,20 @@ Scene load_scene(LayerKinds kinds, const std::filesystem::path& file) {
     Table root(document, values, "the scene", 1);
     Scene out;
     out.file = file;
+    require_gbuffer(root);
     read_scene(root, kinds, out);
-    root.finish([](const std::string& key) {
-        return key == "figure" || key == "panel" ? "makes this a figure; draw it with \"wrinkle figures\"" : "";
-    });
-    document.problems.throw_if_any();
+    finish(root);
+    return out;
+}
+
+Scene parse_scene(LayerKinds kinds, std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder) {
+    const toml::table values = parse_toml(text, name);
+    Document document{folder, true, Problems(name)};
+    Table root(document, values, "the scene", 1);
+    Scene out;
+    read_scene(root, kinds, out);
+    finish(root);
     return out;
 }
 

@@ -15,8 +15,14 @@ toml::table parse_scene_file(const std::filesystem::path& file);
 Scene load_scene(LayerKinds kinds, const std::filesystem::path& file);
 Figure load_figure(LayerKinds kinds, const std::filesystem::path& file);
 
+/// A scene of text in memory, which `name` calls it in messages; relative paths are relative to `folder`. A scene without
+/// [gbuffer] is for those who give passes planes of their own.
+Scene parse_scene(LayerKinds kinds, std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder);
+
 /// The tables of a scene; the caller finishes `root`, which may hold more.
 void read_scene(Table& root, LayerKinds kinds, Scene& out);
+void require_gbuffer(Table& root);
 
 void read_gbuffer(Table& table, GBufferSource& out);
 void read_camera(Table& table, CameraSource& out);

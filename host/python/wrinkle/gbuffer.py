@@ -1,0 +1,129 @@
+"""Frames: planes in memory, or in files."""
+
+from __future__ import annotations
+
+import os
+from typing import Iterable
+
+import numpy as np
+
+from . import _wrinkle
+from ._wrinkle import Camera, Error
+from .scenes import Scene
+
+_roles = _wrinkle.gbuffer_roles()
+
+
+def _array(name: str, value) -> np.ndarray:
+    """`value` as an array of float32: the same memory where it is one already."""
+    if not hasattr(value, "__array_interface__") and hasattr(value, "__dlpack__"):
+        value = np.from_dlpack(value)
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiub":
+        raise Error(f'plane "{name}": float32 is wanted, or numbers that become it; found {array.dtype}')
+    return array.astype(np.float32, copy=False)
+
+
+class GBuffer:
+    """The passes of a frame, as arrays of (height, width) or (height, width, components), from the top row down.
+
+    camera       a Camera, or any object with `view` and `proj`
+    ray_depth    depth is the distance along the ray, not the distance along the view
+    channels     further planes by name, for masks and height channels: {"Mask": array}
+    planes       by role: position, normal (world space), depth, uv (v up), object, albedo, roughness, beauty, duv_dx, ...
+                 (wrinkle.GBuffer.roles); cryptomatte: ids and coverages in turn, (height, width, 2 n)
+
+    Arrays of float32 whose components are planes of their own (numpy's moveaxis of a (components, height, width) array)
+    are used where they are; others are copied. Anything with __array_interface__ or __dlpack__ will do. Pixels of the
+    background have a normal of zero, or a depth that is not finite.
+    """
+
+    roles = {role: len(planes) for role, planes in _roles.items()}
+
+    def __init__(self, *, camera: Camera, ray_depth: bool = False, channels: dict | None = None, **planes):
+        if not isinstance(camera, Camera):
+            camera = Camera(np.asarray(camera.view).tolist(), np.asarray(camera.proj).tolist())
+        self.camera, self.ray_depth = camera, ray_depth
+        self._planes: dict[str, np.ndarray] = {}
+        self._shape: tuple[int, int] | None = None
+        self._opened = None
+        for role, value in planes.items():
+            self._add_role(role, value)
+        for name, value in (channels or {}).items():
+            self._add(f"channel:{name}", name, _array(name, value))
+        if self._shape is None:
+            raise Error("a G-buffer without planes: give at least normal, and depth or position")
+
+    @classmethod
+    def read(cls, file: str | os.PathLike, *, camera: dict | None = None, number: int = 0, **gbuffer) -> GBuffer:
+        """Opens an EXR frame. Its passes are found by their channels' names, its camera as the scene format says; pass
+        `camera` and more keys of [gbuffer] (roles, view, depth, ...) to say so. Planes are read when they are needed."""
+        return cls.of(Scene(gbuffer={"file": os.fspath(file), **gbuffer}, camera=camera), number)
+
+    @classmethod
+    def of(cls, scene: Scene, number: int = 0) -> GBuffer:
+        """The frame that a scene reads from files; `number` stands for #### in its name."""
+        if not scene._scene.has_frame:
+            raise Error("this scene names no frame; give a GBuffer, or gbuffer={\"file\": \"frame.exr\"}")
+        out = cls.__new__(cls)
+        out._opened = _wrinkle.OpenedFrame(scene._scene, number)
+        out._planes = {}
+        frame = out._opened.frame
+        out._shape, out.camera = (frame.height, frame.width), frame.camera
+        return out
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(height, width)"""
+        return self._shape
+
+    @property
+    def names(self) -> list[str]:
+        """The planes that there are: "normal.x", "depth", "channel:Mask"."""
+        return sorted(self._opened.frame.planes if self._opened else self._planes)
+
+    def plane(self, name: str) -> np.ndarray:
+        """A plane by its name, (height, width) of float32; a frame's file is read for it."""
+        return self._take([name])[name]
+
+    def _take(self, names: Iterable[str]) -> dict[str, np.ndarray]:
+        names = list(names)
+        if self._opened:
+            out = {name: np.empty(self._shape, np.float32) for name in names}
+            self._opened.read(names, list(out.values()))
+            return out
+        for name in names:
+            if name not in self._planes:
+                raise Error(f'plane "{name}" is needed; there are {", ".join(self.names)}')
+        return {name: self._planes[name] for name in names}
+
+    def _frame(self, objects: Iterable[str] = ()):
+        if self._opened:
+            return self._opened.frame
+        height, width = self._shape
+        return _wrinkle.Frame(width, height, self.camera, set(self._planes), self.ray_depth, list(objects))
+
+    def _add_role(self, role: str, value):
+        if role not in _roles and role != "cryptomatte":
+            raise Error(f'"{role}" is no role of a plane; there are {", ".join([*_roles, "cryptomatte"])}; other planes '
+                        f'go into channels={{"{role}": array}}')
+        array = _array(role, value)
+        names = _roles.get(role) or [f"crypto.{part}{k // 2}" for k, part in
+                                     enumerate(["id", "coverage"] * (array.shape[-1] // 2))]
+        if len(names) == 1 and array.ndim == 2:
+            array = array[..., None]
+        if array.ndim != 3 or array.shape[2] != len(names):
+            wanted = "(height, width)" if len(names) == 1 else f"(height, width, {len(names)})"
+            raise Error(f'plane "{role}": the shape {wanted} is wanted; found {np.shape(value)}')
+        for k, name in enumerate(names):
+            self._add(name, role, array[..., k])
+
+    def _add(self, name: str, role: str, plane: np.ndarray):
+        if plane.ndim != 2 or 0 in plane.shape:
+            raise Error(f'plane "{role}": the shape (height, width) is wanted; found {plane.shape}')
+        if self._shape is None:
+            self._shape = plane.shape
+        if plane.shape != self._shape:
+            raise Error(f'plane "{role}": {plane.shape[1]} x {plane.shape[0]} pixels, where the planes before it have '
+                        f'{self._shape[1]} x {self._shape[0]}')
+        self._planes[name] = np.ascontiguousarray(plane)

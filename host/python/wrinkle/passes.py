@@ -1,0 +1,107 @@
+"""The three passes over planes in memory."""
+
+from __future__ import annotations
+
+import functools
+from typing import Callable
+
+import numpy as np
+
+from . import _wrinkle
+from .gbuffer import GBuffer
+from .scenes import Scene
+
+
+@functools.lru_cache(maxsize=None)
+def _opened(wanted: str) -> _wrinkle.Device:
+    """A context a device, for all calls that name it."""
+    return _wrinkle.Device.open(wanted)
+
+
+def device_of(device: _wrinkle.Device | str | None) -> _wrinkle.Device:
+    return device if isinstance(device, _wrinkle.Device) else _opened(device or "")
+
+
+class Pass:
+    """A pass, built once for frames of one size and the same planes: compiled, its textures on the device.
+
+        bumps = wrinkle.Pass(scene, gbuffer)
+        for frame in frames:
+            normal = bumps.run(frame)["normal"]
+
+    For one thread at a time; several threads may have a pass each.
+
+    device   of wrinkle.Device, or what `wrinkle --device` takes; the first CPU by default
+    lanes    pixels a work-item: 1, 4, 8 or 16; 0: what the device is best at
+    fp64     evaluate in double; results are float64
+    """
+
+    def __init__(self, scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False):
+        frame = gbuffer._frame(scene._scene.objects)
+        self._start(_wrinkle.evaluate(device_of(device), scene._scene, frame, lanes, fp64), gbuffer, fp64)
+
+    def _start(self, built, gbuffer: GBuffer, fp64: bool):
+        self._pass, self._shape, self._type = built, gbuffer.shape, np.float64 if fp64 else np.float32
+        return self
+
+    @property
+    def inputs(self) -> list[str]:
+        """Planes that it reads."""
+        return self._pass.inputs
+
+    @property
+    def outputs(self) -> list[str]:
+        """Planes that it writes."""
+        return self._pass.outputs
+
+    def set(self, scene: Scene):
+        """Takes the numbers of another scene of the same structure: strengths, frequencies, colours, lights. Nothing is
+        compiled. Raises Error naming what differs otherwise."""
+        self._pass.set_scene(scene._scene)
+
+    def run(self, gbuffer: GBuffer, progress: Callable[[float], object] | None = None) -> dict[str, np.ndarray]:
+        """Evaluates a frame. Gives arrays by name: (height, width), or (height, width, components), whose components are
+        planes of their own in memory.
+
+        progress   called with the share that is done; what it raises ends the work, and so does Ctrl-C
+        """
+        if gbuffer.shape != self._shape:
+            raise _wrinkle.Error(f"this pass is for {self._shape[1]} x {self._shape[0]} pixels; the frame has "
+                                 f"{gbuffer.shape[1]} x {gbuffer.shape[0]}")
+        self._pass.set_camera(gbuffer.camera)
+        groups: dict[str, list[str]] = {}
+        for name in self.outputs:
+            groups.setdefault(name.partition(".")[0], []).append(name)
+        arrays = {group: np.empty((len(names), *self._shape), self._type) for group, names in groups.items()}
+        planes = {name: arrays[group][k] for group, names in groups.items() for k, name in enumerate(names)}
+        self._pass.run(gbuffer._take(self.inputs), planes, progress)
+        return {group: array[0] if len(array) == 1 else np.moveaxis(array, 0, -1) for group, array in arrays.items()}
+
+    def enqueue(self, inputs: dict[str, int], outputs: dict[str, int], wait=()) -> int:
+        """Enqueues the whole frame on OpenCL buffers made elsewhere, given by pointer (PyOpenCL: buffer.int_ptr), each of
+        padded(width * height) floats: the next multiple of 64. `wait`: pointers of events. Gives the pointer of an event,
+        which is the caller's: pyopencl.Event.from_int_ptr(pointer, retain=False)."""
+        return self._pass.enqueue(inputs, outputs, list(wait))
+
+
+def evaluate(scene: Scene, gbuffer: GBuffer | None = None, *, device=None, lanes: int = 0, fp64: bool = False,
+             progress: Callable[[float], object] | None = None) -> dict[str, np.ndarray]:
+    """Every layer of the scene over a frame: {"normal": (height, width, 3), ...}, and what the scene's output and lighting
+    ask for: surface_gradient, dp_dx, dp_dy, roughness, slope_covariance, marked, lit. Without `gbuffer` the frame that the
+    scene names is read."""
+    gbuffer = gbuffer or GBuffer.of(scene)
+    return Pass(scene, gbuffer, device=device, lanes=lanes, fp64=fp64).run(gbuffer, progress)
+
+
+def accumulate_decals(scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False) -> np.ndarray:
+    """The volume gradients of a scene's decals, (height, width, 3), without any normal: project them onto the one you
+    have: g = v - n (n . v), then normalize(n - g)."""
+    built = _wrinkle.accumulate_decals(device_of(device), scene._scene, gbuffer._frame(), lanes, fp64)
+    return Pass.__new__(Pass)._start(built, gbuffer, fp64).run(gbuffer)["volume_gradient"]
+
+
+def screen_derivatives(gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False):
+    """dp/dx and dp/dy of the surface, metres per pixel right and down, (height, width, 3) each, without neighbours."""
+    built = _wrinkle.screen_derivatives(device_of(device), gbuffer._frame(), lanes, fp64)
+    out = Pass.__new__(Pass)._start(built, gbuffer, fp64).run(gbuffer)
+    return out["dp_dx"], out["dp_dy"]
