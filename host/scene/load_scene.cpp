@@ -50,7 +50,7 @@ void read_lights(Table& root, Lighting& out) {
             line, "relight without light: add a [[light]], or set ambient in [lighting], or set relight = \"off\"");
 }
 
-/// A table that has to be there; `example` shows the least of it.
+/// Reports a missing table; `example` shows the least that it has to hold.
 void require_table(Table& root, const char* key, const char* example) {
     if (!root.has(key)) root.document().problems.add(0, fmt::format("needs [{}], at least {}", key, example));
 }
