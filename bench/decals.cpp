@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 #include "baseline/decals.h"
-#include "error.h"
-#include "io/texture_file.h"
+#include "resident.h"
 #include "run/pass_impl.h"
 #include "temporary_folder.h"
 #include "tests/reference/projector.h"
@@ -20,7 +18,7 @@ namespace wrinkle::bench {
 
 namespace {
 
-constexpr std::size_t kErrorSamples = 256;  // few, since the reference evaluates every decal at every one of them
+constexpr std::size_t kDecalSamples = 256;  // few, since the reference evaluates every decal at every one of them
 constexpr double kCoverage = 8;             // decals that a pixel lies in, on average
 
 struct Wanted {
@@ -56,22 +54,17 @@ std::vector<Projector> rows_of(const BenchFrame& frame, const Wanted& wanted, do
     return scatter_decals(options, frame.frame, frame.spans());
 }
 
-/// A built pass with its planes on the device.
-struct Resident {
+/// A resident pass with its scene, whose bins can be made by themselves.
+struct BinnedPass {
     Scene scene;
-    Pass pass;
-    PlaneBuffers in, out;
+    Resident resident;
 
-    Resident(const Device& device, Scene given, const BenchFrame& frame)
-        : scene(std::move(given)), pass(evaluate(device, scene, frame.frame)) {
-        in = upload(device, frame, pass.inputs());
-        out = PlaneBuffers(device, pass.outputs(), frame.pixels(), sizeof(float));
-    }
-    void run() { pass.enqueue(in.planes(), out.planes()).wait(); }
+    BinnedPass(const Device& device, Scene given, const BenchFrame& frame)
+        : scene(std::move(given)), resident(device, scene, frame) {}
     void bin() {
-        Pass::Impl& impl = pass.impl();
+        Pass::Impl& impl = resident.pass.impl();
         std::vector<cl::Buffer> planes;
-        for (const std::string& name : impl.plan.tiles->inputs) planes.push_back(in.planes().at(name));
+        for (const std::string& name : impl.plan.tiles->inputs) planes.push_back(resident.in.planes().at(name));
         impl.bins
             .enqueue(impl.frame, impl.numbers, planes, {.first = 0, .count = impl.size.height}, impl.size.width, 0,
                      impl.size.width * impl.size.height, {})
@@ -86,12 +79,12 @@ struct Coverage {
     double bytes = 0;      ///< tables, bounds and lists on the device
 };
 
-Coverage coverage_of(Resident& resident, const BenchFrame& frame, std::vector<std::vector<std::uint32_t>>& lists) {
+Coverage coverage_of(BinnedPass& decals, const BenchFrame& frame, std::vector<std::vector<std::uint32_t>>& lists) {
     const Size size = frame.frame.size;
-    resident.run();
-    const BinReport report = resident.pass.impl().bins.read(size.width, size.height, &lists);
-    const auto& rows = *std::get<DecalsLayer>(resident.scene.layers[0].bump).rows;
-    const auto& order = resident.pass.impl().plan.tables[0].order;
+    decals.resident.run();
+    const BinReport report = decals.resident.pass.impl().bins.read(size.width, size.height, &lists);
+    const auto& rows = *std::get<DecalsLayer>(decals.scene.layers[0].bump).rows;
+    const auto& order = decals.resident.pass.impl().plan.tables[0].order;
     using namespace reference;
     std::vector<DecalBox<double>> boxes;
     std::vector<Projector> hard;
@@ -132,20 +125,11 @@ Coverage coverage_of(Resident& resident, const BenchFrame& frame, std::vector<st
             static_cast<double>(entries) / static_cast<double>(touching), static_cast<double>(report.bytes)};
 }
 
-std::map<std::filesystem::path, baseline::Image> images_of(const DecalsLayer& layer) {
-    std::map<std::filesystem::path, baseline::Image> images;
-    for (const TextureUse& use : layer.textures) {
-        Image image = load_bump(use);
-        images[use.file] = {image.width, image.height, image.channels, std::move(image.texels)};
-    }
-    return images;
-}
-
 /// One table of decals with all that the race needs of it.
 struct Entrant {
     std::string name;
     Coverage coverage;
-    std::unique_ptr<Resident> resident;
+    std::unique_ptr<BinnedPass> decals;
     baseline::TileLists lists;
     std::unique_ptr<baseline::DecalTable> plain;
     std::size_t first = 0;  ///< number of its first contender
@@ -156,43 +140,28 @@ Entrant prepare(const Device& device, const BenchFrame& frame, const Wanted& wan
     double half =
         std::sqrt(kCoverage * static_cast<double>(frame.pixels()) / (2.5 * static_cast<double>(wanted.count)));
     for (int round = 0; round < 3; ++round) {  // until as many pixels are covered as wanted
-        e.resident = std::make_unique<Resident>(device, scene_of(rows_of(frame, wanted, half)), frame);
+        e.decals = std::make_unique<BinnedPass>(device, scene_of(rows_of(frame, wanted, half)), frame);
         e.lists = {WR_TILE_WIDTH, WR_TILE_HEIGHT, {}};
-        e.coverage = coverage_of(*e.resident, frame, e.lists.lists);
+        e.coverage = coverage_of(*e.decals, frame, e.lists.lists);
         if (std::abs(e.coverage.per_pixel / kCoverage - 1) < 0.02) break;
         half *= std::sqrt(kCoverage / e.coverage.per_pixel);
     }
-    const auto& layer = std::get<DecalsLayer>(e.resident->scene.layers[0].bump);
+    const auto& layer = std::get<DecalsLayer>(e.decals->scene.layers[0].bump);
     e.name = fmt::format("{} decals{}", wanted.count, wanted.replace ? " that replace" : "");
     if (wanted.plain)
-        e.plain =
-            std::make_unique<baseline::DecalTable>(layer, 1.0, frame.frame.size, frame.frame.camera, images_of(layer));
+        e.plain = std::make_unique<baseline::DecalTable>(layer, 1.0, frame.frame.size, frame.frame.camera,
+                                                         baseline_images(e.decals->scene));
     return e;
 }
 
 /// Seconds a pixel that a copy of one plane takes at the ceiling of the run.
 double copy_seconds(const Run& run) { return 2 * sizeof(float) / (run.ceilings.copy_gb_s * 1e9); }
 
-double operations_of(const Plan& plan) {
-    double sum = 0;
-    for (const SectionSummary& section : plan.sections) sum += section.operations;
-    return sum;
-}
-
-Normals normals_of(Resident& resident, std::size_t pixels) {
-    Normals got(pixels);
-    resident.run();
-    for (auto [name, plane] : {std::pair{"normal.x", &got.x}, {"normal.y", &got.y}, {"normal.z", &got.z}})
-        std::memcpy(plane->data(), resident.out.map<float>(name, CL_MAP_READ), pixels * sizeof(float));
-    resident.out.unmap();
-    return got;
-}
-
 /// Seconds to load the table from a file with this ending, which parses and checks every row. The median of five.
 double seconds_to_load(const Entrant& e, const char* ending) {
     const TemporaryFolder folder;
     const auto file = folder.path() / fmt::format("decals.{}", ending);
-    const auto& layer = std::get<DecalsLayer>(e.resident->scene.layers[0].bump);
+    const auto& layer = std::get<DecalsLayer>(e.decals->scene.layers[0].bump);
     save_decals(file, *layer.rows);
     std::vector<Contender> loads{{ending, [&] { load_decals(file, layer.textures.size()); }}};
     race(loads, {5});
@@ -215,20 +184,22 @@ void measure_decals(const Device& device, Size size, bool quick, Run& run) {
     std::vector<Contender> contenders{{"", [&] { empty.run(); }}};
     for (Entrant& e : entrants) {
         e.first = contenders.size();
-        contenders.push_back({"standard", [&] { e.resident->run(); }});
-        contenders.push_back({"binning alone", [&] { e.resident->bin(); }});
-        contenders.push_back({"new camera, on the host", [&] { e.resident->pass.set_camera(frame.frame.camera); }});
+        contenders.push_back({"standard", [&] { e.decals->resident.run(); }});
+        contenders.push_back({"binning alone", [&] { e.decals->bin(); }});
+        contenders.push_back(
+            {"new camera, on the host", [&] { e.decals->resident.pass.set_camera(frame.frame.camera); }});
         if (e.plain)
             contenders.push_back({"plain C++, same lists", [&] {
-                                      e.plain->run(e.resident->scene, spans, e.lists, {plain.x, plain.y, plain.z});
+                                      e.plain->run(e.decals->scene, spans, e.lists, {plain.x, plain.y, plain.z});
                                   }});
     }
     race(contenders, run.rounds);
 
     for (Entrant& e : entrants) {
-        const ReferenceSample reference(e.resident->scene, frame, kErrorSamples, 7);
-        const Normals got = normals_of(*e.resident, pixels);
-        const Plan& plan = e.resident->pass.impl().plan;
+        const ReferenceSample reference(e.decals->scene, frame, kDecalSamples, 7);
+        e.decals->resident.run();
+        const Normals got = e.decals->resident.normals(pixels);
+        const Plan& plan = e.decals->resident.pass.impl().plan;
         const ErrorStats error = reference.compare(got);
         const double covered = e.coverage.per_pixel * static_cast<double>(pixels);
         const auto per_decal = [&](const Timing& t) {  // seconds, above the pass without decals
@@ -238,7 +209,7 @@ void measure_decals(const Device& device, Size size, bool quick, Run& run) {
             const bool kernel = i < e.first + 2, whole = i == e.first || i == e.first + 3;
             Measurement m = measured("decals", e.name, contenders[i], kernel ? device.info.lanes : 0, pixels);
             m.bytes = whole ? plan.bytes : 0;
-            m.operations = whole ? operations_of(plan) * e.coverage.per_pixel : 0;
+            m.operations = whole ? operations_of(e.decals->resident.pass) * e.coverage.per_pixel : 0;
             m.at_most = true;
             m.error = error;
             if (i == e.first + 3) {

@@ -45,6 +45,11 @@ std::vector<Way> ways(int lanes) {
             add(fmt::format("height_map_{}_{}", variant, mips ? "mips" : "level_0"), map, mips,
                 mips && upscale == Upscale::smooth);
         }
+    KernelLayer dents{.function = "dents", .parameters = {{"spacing", 0.35}, {"radius", 0.45}, {"depth", 1}}};
+    dents.file = WRINKLE_SOURCE_DIR "/data/kernels/dents.clh";
+    add("kernel_dents", dents, true, false);
+    dents.file = WRINKLE_SOURCE_DIR "/bench/kernels/dents_by_hand.clh";
+    all.push_back({"kernel_dents", "gradient by hand", dents});
     return all;
 }
 

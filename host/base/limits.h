@@ -19,10 +19,11 @@ struct MemoryLimit {
 };
 MemoryLimit memory_limit();
 
-/// Throws Error, beginning with `name`, when `bytes` are more than memory_limit(). `what` takes them.
+/// Throws Error, beginning with `name`, when `what`, which takes `bytes`, is more than memory_limit() allows.
 void check_memory(const std::string& name, double bytes, const std::string& what);
 
-/// Whether a name leads into the sandbox, or there is none. What it leads to may change; is_allowed() knows.
+/// Whether a name leads into the sandbox, or there is no sandbox. The file behind a name may change, so is_allowed()
+/// decides once it is open.
 bool may_be_allowed(const std::filesystem::path& file);
 
 /// Whether a file that is open lies within the sandbox, or there is none.

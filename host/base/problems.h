@@ -8,7 +8,7 @@
 
 namespace wrinkle {
 
-/// What is wrong with a file, collected so that all of it is told at once; or with what no file holds, without a name.
+/// What is wrong with a file, collected so that all of it is told at once. Without a name: with what was made in code.
 class Problems {
 public:
     explicit Problems(std::string file_name) : file_name_(std::move(file_name)) {}

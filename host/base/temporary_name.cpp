@@ -27,7 +27,8 @@ struct Slot {
     std::atomic<bool> taken = false, whole = false;
     std::array<char, PATH_MAX> path{};
 };
-constexpr std::size_t kSlots = 64;  // files that a process writes at once; of more, the rest stay after a signal
+constexpr std::size_t kSlots =
+    64;  // files that a process writes at once; if there are more, the others stay after a signal
 std::array<Slot, kSlots> slots;
 
 void remove_doomed() {

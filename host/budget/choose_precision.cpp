@@ -43,7 +43,7 @@ std::size_t rung_of(const Choosable& what, PrecisionChoice choice) {
     return static_cast<std::size_t>(found - what.ladder.begin());
 }
 
-/// Has the choice say what the table expects of it.
+/// Sets the time and the error that the table expects of a choice.
 void sum_up(PrecisionChoice& choice, const std::vector<Choosable>& all) {
     choice.ns = choice.error = 0;
     for (const Choosable& what : all) {

@@ -27,7 +27,7 @@ public:
     /// Begins anew: a frame in bands of `band_rows` rows, the last one shorter. The same pixels every time.
     void start(const Camera& camera, std::uint32_t band_rows) override;
 
-    /// The next band: what a pass made of `inputs`. Blocks.
+    /// The next band: its planes, and what a pass made of them. Blocks.
     void add(const PlaneBuffers& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) override;
 
     ErrorStats stats() const { return statistics(degrees_); }

@@ -98,8 +98,8 @@ private:
         add(kind, Precision::fp64, in_double - empty_in_double_, sample.stats());
     }
 
-    /// Its time is that of screen derivatives alone. Its error shows in normals only, so it is what the scene errs by
-    /// more than with the most exact geometry.
+    /// The time of the geometry is that of screen derivatives alone. Its error shows in normals only: it is how much
+    /// more the scene errs than with the most exact geometry.
     void measure_geometry() {
         say("the geometry");
         Scene derivatives = with({});
@@ -149,7 +149,7 @@ DeviceCosts measure_costs(const Device& device, const std::vector<Scene>& scenes
 }
 
 void merge_costs(const std::filesystem::path& file, const DeviceCosts& measured) {
-    const FolderLock lock(file.parent_path());  // two that measure at once would lose the one's rows
+    const FolderLock lock(file.parent_path());  // else, of two that measure at once, one would lose its rows
     std::vector<DeviceCosts> tables = read_costs(file);
     const auto same = std::ranges::find_if(tables, [&](const DeviceCosts& table) {
         return table.device == measured.device && table.driver == measured.driver &&

@@ -11,16 +11,16 @@
 
 namespace wrinkle {
 
-/// Kernel text over columns of numbers. `body` sees each column under its name (a.x, a.y, a.z as vec3 a; a.x, a.y as
-/// vec2 a; in_a_x is the whole column, `at` the first row of the
-/// work-item), `constants`, `records`, `texels` and `textures`; `outputs` are expressions of type real.
+/// Kernel text over columns of numbers. `body` sees each column under its name: columns a.x, a.y, a.z as a wr_vec3 a,
+/// and a.x, a.y as a wr_vec2 a. It also sees the whole column as in_a_x, with `at` for the first row of the work-item,
+/// and `constants`, `records`, `texels` and `textures`. `outputs` are expressions of type wr_real.
 struct ColumnKernel {
     std::string body;
     std::vector<std::string> outputs;
 };
 
-/// What kernels read beside columns: `constants` and `records` are WR_SCALARs (wr_camera, wr_light; wr_decal ...).
-/// Where the ..._per_row are set, each row has its own that many of them.
+/// What kernels read beside columns. `constants` are WR_SCALARs, or structs of them such as a wr_camera; `records` are
+/// rows such as wr_projectors. Where a ..._per_row is set, every row of the columns has that many of its own.
 struct ColumnData {
     std::vector<double> constants, records;
     std::size_t constants_per_row = 0, records_per_row = 0;
@@ -43,7 +43,7 @@ public:
     /// Columns in the order of the names, `rows` numbers each.
     void upload(const std::vector<std::vector<T>>& columns, std::size_t rows, const std::vector<double>& constants,
                 const std::vector<double>& records);
-    /// After what was enqueued before, which writes the same results.
+    /// Enqueues the kernel to run after what was enqueued before, because all of them write the same results.
     void enqueue();
     /// One vector of `rows` numbers for each output, once all that was enqueued is done.
     std::vector<std::vector<T>> read();

@@ -41,7 +41,7 @@ std::string declaration(const std::vector<std::string>& lines, std::size_t at) {
     return out;
 }
 
-/// Of functions that a macro defines: the declaration once for every use of the macro in the file.
+/// The declarations of functions that a macro defines: one for every use of the macro in the file.
 std::vector<std::string> macro_declarations(const std::vector<std::string>& lines, std::size_t at) {
     static const std::regex define("^#define (\\w+)\\(NAME\\b");
     std::smatch found;

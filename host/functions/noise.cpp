@@ -10,7 +10,7 @@ using enum Precision;
 
 namespace {
 
-/// A noise, whose gradient is also got by differences.
+/// A noise. Its gradient can also be computed by differences.
 struct Noise {
     const char *name, *basis, *file, *summary, *source;
     std::string note;
@@ -43,7 +43,7 @@ const std::vector<Noise>& noises() {
     return all;
 }
 
-/// A row of the table: a noise with its gradient in one way.
+/// A row of the table: a noise, with its gradient computed in one of the ways.
 Function row(const Noise& noise, const char* suffix, const char* way, const char* gradient, double error,
              double fp64_error) {
     Function f{.name = std::string(noise.name) + suffix,

@@ -16,4 +16,10 @@ inline std::vector<Precision> standard_and_exact(const Scene&, std::size_t, Came
     return {Precision::standard, Precision::exact};
 }
 
+/// The row of a kind whose texture lies on texture coordinates and gives slopes.
+constexpr LayerKind slopes_on_uv(const char* name, void (*read)(scene::Table& table, Layer& layer),
+                                 std::string (*emit)(LayerText& at), std::span<const LayerUse> uses = on_uv) {
+    return {.name = name, .read = read, .emit = emit, .uses = uses, .variants = standard_and_exact};
+}
+
 }  // namespace wrinkle::layers

@@ -68,8 +68,8 @@ Projector row(const Layer& layer) {
             .two_sided = decal.two_sided};
 }
 
-/// Same mask, and the same way to sample. Which object a mask is for is not compiled in, so two of them are never the
-/// same.
+/// Whether two decals can share a loop: they have the same mask and are sampled alike. Masks of objects never count as
+/// the same, because which object one is for is not compiled in.
 bool joins(const Layer& a, const Layer& b) {
     const auto of_an_object = [](const Mask& mask) { return mask.object || mask.cryptomatte || mask.texture; };
     const bool same_mask = !of_an_object(a.mask) && !of_an_object(b.mask) && a.mask.channel == b.mask.channel &&

@@ -24,7 +24,7 @@ Image image_of(const Projector& row) { return {row.texture, row.region, row.wrap
 /// The images of a table, numbered in the order of first use.
 class Images {
 public:
-    /// The number of a row's, and whether no row before it has the same.
+    /// The number of a row's image, and whether the row is the first to use it.
     std::pair<std::uint32_t, bool> operator()(const Projector& row) {
         Image image = image_of(row);
         if (last_ != known_.end() && last_->first == image) return {last_->second, false};
@@ -189,8 +189,8 @@ std::vector<NamedObject> objects(const Layer& layer) {
     return found;
 }
 
-/// Text that skips rows of other layers, where there are such. Row numbers are not compiled in: a table of another
-/// length is the same program. A float holds half of one.
+/// Text that skips rows of other layers' tables, if there are any. Row numbers are not compiled in, so that tables of
+/// any length share a program. Each is passed as two halves, because a float cannot hold 32 bits.
 std::string another_layers(LayerText& at) {
     const std::vector<Layer>& layers = at.emitter.scene.layers;
     if (std::ranges::count_if(layers, [&](const Layer& layer) { return at.emitter.kind(layer).binned; }) < 2) return {};

@@ -36,11 +36,7 @@ std::string emit(LayerText& at) {
 }  // namespace
 
 const LayerKind& layers::derivative_map() {
-    static constexpr LayerKind row{.name = DerivativeMapLayer::kind,
-                                   .read = read,
-                                   .emit = emit,
-                                   .uses = layers::on_uv,
-                                   .variants = layers::standard_and_exact};
+    static constexpr LayerKind row = layers::slopes_on_uv(DerivativeMapLayer::kind, read, emit);
     return row;
 }
 

@@ -12,8 +12,7 @@ constexpr double kTaps = 240;  // expected operations
 void read(scene::Table& table, Layer& layer) {
     auto bump = scene::held<HeightMapLayer>(layer);
     scene::read_texture_of(table, bump.texture, Content::height);
-    table.choose("upscale", bump.texture.upscale,
-                 {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}, {"taps", Upscale::taps}});
+    scene::read_any_upscale(table, bump.texture);
     scene::read_mapped(table, bump.texture, bump.uv);
     if (bump.texture.upscale == Upscale::taps && bump.texture.wrap == Wrap::clamp)
         table.complain("upscale", "is \"taps\", which repeats: wrap must not be \"clamp\"");
@@ -38,11 +37,7 @@ std::string emit(LayerText& at) {
 }  // namespace
 
 const LayerKind& layers::height_map() {
-    static constexpr LayerKind row{.name = HeightMapLayer::kind,
-                                   .read = read,
-                                   .emit = emit,
-                                   .uses = layers::on_uv,
-                                   .variants = layers::standard_and_exact};
+    static constexpr LayerKind row = layers::slopes_on_uv(HeightMapLayer::kind, read, emit);
     return row;
 }
 

@@ -21,7 +21,8 @@ const KernelLayer& kernel_of(const Layer& layer) { return std::get<KernelLayer>(
 constexpr const char* kNameRule =
     "must be a name as C has them, that is no word of OpenCL C and does not begin with wr_ or WR_";
 
-/// Words of OpenCL C that a name of letters may clash with: the language would complain of text that nobody wrote.
+/// Words of OpenCL C that cannot be names. The compiler would report them in generated text, which the user did not
+/// write.
 constexpr std::string_view kWords[] = {
     "auto",   "bool",     "break",  "case",   "char",     "const",   "constant", "continue", "default", "do",
     "double", "else",     "enum",   "extern", "float",    "for",     "global",   "goto",     "half",    "if",
@@ -36,7 +37,7 @@ bool is_name(const std::string& text) {
            std::ranges::find(kWords, text) == std::end(kWords);
 }
 
-/// Their names become members of a structure, their values numbers of the scene.
+/// Reads `parameters`. Their names become members of a structure, their values numbers of the scene.
 void read_parameters(scene::Table& table, std::map<std::string, double>& out) {
     for (const std::string& name : table.keys()) out.try_emplace(name);
     for (auto& [name, value] : out) {
@@ -77,8 +78,8 @@ bool defines(const std::string& text, const std::string& name) {
     return false;
 }
 
-/// The user's file, once, with the structure of each function's parameters before it. A compiler's messages are told by
-/// the file's own name and lines.
+/// Adds the user's file to the kernel text, once for all layers that use it, and the structure of this layer's
+/// parameters.
 void add_source(LayerText& at, const KernelLayer& l) {
     if (!limits().sandbox.empty())
         throw Error(at.who + ": a kernel is native code on a CPU, which a sandbox cannot hold: it is not run here");

@@ -31,8 +31,8 @@ std::string emit(LayerText& at) {
                       strength);
 }
 
-/// Pairs keep the digits of points far from the origin. A parallax moves points by a float, and a parallel projection
-/// has positions as floats only, so nothing is left of those digits.
+/// The exact variant has points as pairs of floats, which keep their digits far from the origin. There is none where
+/// those digits are not known: after a parallax, which moves points by a float, and in a parallel projection.
 std::vector<Precision> variants(const Scene& scene, std::size_t index, CameraKind camera) {
     const auto before = scene.layers.begin();
     const bool moved = std::any_of(before, before + static_cast<std::ptrdiff_t>(index), [](const Layer& layer) {

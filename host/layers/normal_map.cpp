@@ -26,8 +26,8 @@ const char* combine_function(Combine combine) {
     }
 }
 
-/// Whether the layer goes by the planes of the renderer's tangents. They belong to the UV pass: its scale and offset do
-/// not turn them, a rotation would.
+/// Whether the layer uses the renderer's tangents, which are planes of the frame. They go along u and v, so they do not
+/// serve a mapping that rotates these; scale and offset do not matter.
 bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
     const Emitter& emitter = at.emitter;
     const std::vector<std::string> tangent{"tangent.x", "tangent.y", "tangent.z"};
@@ -130,8 +130,7 @@ constexpr LayerUse uses[] = {{"", layers::uv_role}, {"tangents = \"passes\"", ta
 }  // namespace
 
 const LayerKind& layers::normal_map() {
-    static constexpr LayerKind row{
-        .name = NormalMapLayer::kind, .read = read, .emit = emit, .uses = uses, .variants = layers::standard_and_exact};
+    static constexpr LayerKind row = layers::slopes_on_uv(NormalMapLayer::kind, read, emit, uses);
     return row;
 }
 

@@ -18,15 +18,12 @@ constexpr double kPerturbedNormal = 75, kTurn = 15;  // expected operations
 using Rows = std::array<Vec3, 3>;
 const Rows kIdentity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// sign(det) cof(m): turns normals as m turns the surface, its outside staying outside where m mirrors. The largest
-/// number is 1, because the length of a normal does not matter.
+/// sign(det m) cof(m): takes normals along when m takes the surface somewhere; the sign keeps them outside where m
+/// mirrors. Scaled to a largest entry of 1, as the length of a normal does not matter.
 Rows normal_matrix(const Rows& m, const std::string& who) {
     Rows cofactor{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            cofactor[i][j] = m[(i + 1) % 3][(j + 1) % 3] * m[(i + 2) % 3][(j + 2) % 3] -
-                             m[(i + 1) % 3][(j + 2) % 3] * m[(i + 2) % 3][(j + 1) % 3];
-    const double det = m[0][0] * cofactor[0][0] + m[0][1] * cofactor[0][1] + m[0][2] * cofactor[0][2];
+    for (std::size_t i = 0; i < 3; ++i) cofactor[i] = cross(m[(i + 1) % 3], m[(i + 2) % 3]);
+    const double det = dot(m[0], cofactor[0]);
     double largest = 0;
     for (const Vec3& row : cofactor)
         for (const double v : row) largest = std::max(largest, std::abs(v));
@@ -38,7 +35,7 @@ Rows normal_matrix(const Rows& m, const std::string& who) {
 }
 
 bool is_flat(const Rows& m) {
-    constexpr double share = 1e-9;  // of what rows of these lengths may span
+    constexpr double share = 1e-9;  // of the volume that perpendicular rows would span
     return !(std::abs(dot(normalize(m[0]), cross(normalize(m[1]), normalize(m[2])))) > share);
 }
 
@@ -94,8 +91,7 @@ Rows turn_of(const ObjectNormalLayer& l, const std::string& who) {
     const Rows normals = normal_matrix(l.object_to_world, who);
     Rows turn{};
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t k = 0; k < 3; ++k) turn[i][j] += normals[i][k] * l.channels[j][k];
+        for (std::size_t j = 0; j < 3; ++j) turn[i][j] = dot(normals[i], l.channels[j]);
     return turn;
 }
 
@@ -104,14 +100,9 @@ std::string emit(LayerText& at) {
     std::string text = at.textured(l.texture, "wr_vec3 v");
     at.section.operations += kPerturbedNormal;
     if (turns(l)) {
-        const std::size_t rows = at.emitter.numbers(at.layer, "object_to_world", [](const Layer& layer, const auto&) {
-            std::vector<double> numbers;
-            for (const Vec3& row : turn_of(std::get<ObjectNormalLayer>(layer.bump), layer_label(layer)))
-                numbers.insert(numbers.end(), row.begin(), row.end());
-            return numbers;
+        text += at.turned("object_to_world", [](const Layer& layer) {
+            return turn_of(std::get<ObjectNormalLayer>(layer.bump), layer_label(layer));
         });
-        text += fmt::format("        v = wr_turn(wr_v3(numbers + {}), wr_v3(numbers + {}), wr_v3(numbers + {}), v);\n",
-                            rows, rows + 3, rows + 6);
         at.section.operations += kTurn;
     }
     return text + fmt::format("        g = wr_fma(wr_surface_gradient_from_perturbed_normal(n, v), m * {}, g);\n",

@@ -60,7 +60,7 @@ std::string reach_text(Emitter& emitter, const Layer& layer, const std::string& 
                                                                         : fmt::format("{} * {}", distance, most));
 }
 
-/// Turns n and puts the derivatives onto the plane of the new one.
+/// Text that turns n, and projects the screen derivatives onto its new tangent plane.
 std::string turn(LayerText& at, bool uv) {
     at.section.reads.insert({"dn_dx", "dn_dy"});
     at.section.writes.insert("n");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTriplanar = 40, kPerturbedNormal = 75;  // expected operations
 
-/// Every source of a plane.
+/// Whether `holds` is true of the source of every plane.
 template <class Holds>
 bool every_plane(const TriplanarLayer& bump, const Holds& holds) {
     bool all = true;
@@ -89,12 +89,6 @@ std::string pair_of(const char* vector, const Plane& plane, const char* t_sign =
     return fmt::format("wr_v2({0}.{1}, {3}{0}.{2})", vector, "xyz"[plane.s], "xyz"[plane.t], t_sign);
 }
 
-std::vector<double> flat(const std::array<Vec3, 3>& rows) {
-    std::vector<double> numbers;
-    for (const Vec3& row : rows) numbers.insert(numbers.end(), row.begin(), row.end());
-    return numbers;
-}
-
 /// The factor of a plane's own source.
 double plane_scale(const TriplanarLayer& l, std::size_t plane) { return l.planes[plane] ? l.planes[plane]->scale : 1; }
 
@@ -116,9 +110,8 @@ class TriplanarText {
 public:
     explicit TriplanarText(LayerText& at)
         : at_(at), l_(triplanar_of(at.layer)), along_axes_(l_.transform.rotate == Vec3{}) {
-        rows_ = at.emitter.numbers(at.layer, "world to repeats", [](const Layer& layer, const auto&) {
-            return flat(projection_of(triplanar_of(layer)).rows);
-        });
+        rows_ =
+            at.matrix("world to repeats", [](const Layer& layer) { return projection_of(triplanar_of(layer)).rows; });
     }
 
     std::string text() {
@@ -172,12 +165,12 @@ private:
         if (l_.transform == Placement{})
             return fmt::format("        wr_vec3 w = wr_triplanar_weights(n, {});\n", sharpness);
         // The normal in object space: columns of the inverse are rows of the inverse transposed.
-        const std::size_t columns = at_.emitter.numbers(at_.layer, "transform", [](const Layer& layer, const auto&) {
+        const std::size_t columns = at_.matrix("transform", [](const Layer& layer) {
             const Placement& placement = triplanar_of(layer).transform;
             auto axes = object_axes(placement);
             for (std::size_t k = 0; k < 3; ++k)
                 for (double& part : axes[k]) part *= placement.scale[k];
-            return flat(axes);
+            return axes;
         });
         return fmt::format(
             "        wr_vec3 w = wr_triplanar_weights(wr_normalize(wr_v3(wr_dot(n, wr_v3(numbers + {})), wr_dot(n, "
@@ -185,8 +178,7 @@ private:
             columns, columns + 3, columns + 6, sharpness);
     }
 
-    /// Sets the plane's slopes per repeat; a texture of object-space normals adds to g instead, they are perturbed
-    /// already.
+    /// Sets the plane's slopes per repeat. A texture of object-space normals has no slopes: it adds to g.
     std::string plane(std::size_t k, const TextureUse& use) {
         const Plane& plane = kPlanes[k];
         at_.section.operations += sample_cost(use);
@@ -202,7 +194,7 @@ private:
         if (upper) text += fmt::format("            {0}.y = -{0}.y;\n", plane.slope);
         if (l_.mode == TriplanarMode::geiss)
             text += fmt::format("            {0} = wr_normal_offset({0});\n", plane.slope);
-        // Slopes of normals have no unit: they rise over as much as the sum takes for a repeat.
+        // Slopes of normals have no unit. sum() expects slopes per repeat, so they are multiplied by the metres of one.
         const bool normal = use.content == Content::normal;
         return text + scaled(k, [normal, k](const TriplanarLayer& l, std::size_t axis) {
                    return normal ? plane_scale(l, k) / projection_of(l).size(axis) : plane_scale(l, k);
@@ -215,14 +207,9 @@ private:
         at_.section.writes.insert("g");
         at_.section.operations += kPerturbedNormal;
         std::string text;
-        if (l_.transform != Placement{}) {
-            const std::size_t rows = at_.emitter.numbers(at_.layer, "transform", [](const Layer& layer, const auto&) {
-                return flat(normals_to_world(triplanar_of(layer).transform));
-            });
-            text = fmt::format(
-                "            v = wr_turn(wr_v3(numbers + {}), wr_v3(numbers + {}), wr_v3(numbers + {}), v);\n", rows,
-                rows + 3, rows + 6);
-        }
+        if (l_.transform != Placement{})
+            text = at_.turned("transform",
+                              [](const Layer& layer) { return normals_to_world(triplanar_of(layer).transform); });
         const std::string scale =
             at_.number("scale of a plane", [k](const Layer& layer) { return plane_scale(triplanar_of(layer), k); });
         return text + fmt::format(
@@ -284,7 +271,7 @@ private:
 
     LayerText& at_;
     const TriplanarLayer& l_;
-    bool along_axes_;       ///< the projected space is not turned against the world: zeros are spared
+    bool along_axes_;       ///< the projected space is not rotated: products with zeros are left out
     bool slopes_ = false;   ///< some plane has them
     std::size_t rows_ = 0;  ///< index of the projection's numbers
 };

@@ -50,8 +50,8 @@ Mat4 index_from_world(const Mat4& file, const Layer& layer) {
     return multiply(file, inverse(std::get<VolumeLayer>(layer.bump).transform));
 }
 
-/// Kernel text of the 3 x 3 part of that matrix times v, plus `rest`; transposed: of the matrix as columns. Grids that
-/// lie along the axes, and are not turned by the layer, are spared the zeros.
+/// Kernel text of the 3 x 3 part of that matrix, or of its transpose, times a vector. Where neither the grid nor the
+/// layer rotates, products with zeros are left out.
 class IndexMatrix {
 public:
     IndexMatrix(LayerText& at, const Mat4& file) {

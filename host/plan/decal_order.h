@@ -7,9 +7,9 @@
 
 namespace wrinkle {
 
-/// The order in which rows are evaluated. A table that replaces: by priority, then by row. One that only adds: along a
-/// curve through space (Morton), so that neighbours lie together in memory; ties are broken by what the rows hold, so
-/// the order, and with it every rounding, does not depend on that of the file.
+/// The order in which the rows of a table are evaluated. If a row replaces: by priority, then by row. If all rows add:
+/// along a Morton curve, so that neighbours in space lie together in memory; ties are broken by what the rows hold, so
+/// that neither the order nor any rounding depends on the order of the file.
 std::vector<std::uint32_t> decal_order(const std::vector<Projector>& rows);
 
 }  // namespace wrinkle

@@ -9,24 +9,25 @@ namespace wrinkle {
 
 namespace {
 
-/// Text that sets how many points it takes.
+/// Text that sets the number of points in each pixel's area.
 std::string count_text(const Emitter& emitter) {
     const int most = emitter.scene.filter.taps;
     return most == 1 ? "" : fmt::format("        taps.count = wr_tap_count(taps, {}, wanted);\n", most);
 }
 
-/// What layers add to, and the name of its mean over the area.
+/// A variable that layers add to, and the one for its mean over the area.
 struct Sum {
     const char *value, *name;
 };
 constexpr Sum kSums[] = {{"g", "sum"}, {"dh_dp", "sum_space"}};
 
-/// Text of the sums for the covariance of slopes.
+/// Text that declares the sums for the covariance of slopes. Slopes are taken relative to that of the first point, so
+/// that a steep mean cancels no digits.
 constexpr const char* kSpreadSums =
     "        wr_vec3 right = wr_normalize(dp_dx), down = wr_cross_fast(right, n), products = wr_zero3();\n"
     "        wr_vec2 first_slope = {0, 0}, mean_slope = {0, 0};\n";
 
-/// Text that makes the covariance of them.
+/// Text that turns those sums into the covariance.
 constexpr const char* kSpreadEnd =
     "        wr_vec3 variance = wr_v3(products.x - mean_slope.x * mean_slope.x, products.y - mean_slope.x * "
     "mean_slope.y,\n            products.z - mean_slope.y * mean_slope.y);\n"
@@ -112,7 +113,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     }
 
     std::string& text = area.body;
-    // Pixels that no layer wants stay as they are; the first light falls on them all the same.
+    // Groups of pixels that no layer wants skip the section, unless it is the first to light: every pixel needs light.
     const bool all = use.lights && use.first;
     text = masks +
            fmt::format("        const wr_mask wanted = {};\n        if ({}) {{\n", wanted,
@@ -126,7 +127,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
             "        const wr_texcoord axes_uv = wr_along_area(uv, taps);\n"
             "        const wr_texcoord share_uv = {uv.st, wr_scale(axes_uv.dx, shares.length), axes_uv.dy};\n";
     if (low) text += "        const wr_vec3 centre_low = p_low;\n";
-    // From here on the names that layers read stand for a share of the pixel's area.
+    // Layers filter over one point's share of the area: in this block, dp_dx, dp_dy and uv are those of a share.
     text += "        {\n        const wr_vec3 dp_dx = share_dx, dp_dy = share_dy;\n";
     if (uv) text += "        const wr_texcoord uv = share_uv;\n";
     text += prepared + fmt::format(

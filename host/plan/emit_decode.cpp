@@ -8,7 +8,7 @@ namespace wrinkle {
 
 namespace {
 
-/// Lines of text, one level deeper.
+/// `lines`, indented one level deeper.
 std::string indented(const std::string& lines) {
     std::string text;
     for (std::size_t begin = 0, end; begin < lines.size(); begin = end) {
@@ -18,7 +18,7 @@ std::string indented(const std::string& lines) {
     return text;
 }
 
-/// Arguments of the generated helpers: every plane they load.
+/// The planes that the helper for neighbours loads: as its parameters, or as the arguments of a call.
 std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
     std::string text;
     std::vector<std::string> planes = geometry.planes;
@@ -29,7 +29,8 @@ std::string neighbour_planes(const GeometryText& geometry, bool object, bool dec
     return text;
 }
 
-/// A neighbour needs no mask of its own bits: what is not finite fails the comparisons of wr_belongs.
+/// Text of the function that loads a neighbour. It does not test for NaN and Inf: they fail the comparisons of
+/// wr_belongs.
 std::string neighbour_helper(const GeometryText& geometry, bool object) {
     const std::string load = "wr_load_near({}, at, pixels)";
     const bool depth = geometry.planes.size() == 1;
@@ -52,9 +53,9 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
     return text;
 }
 
-/// Kernel text that declares the pixel as `self`, with text that is its texture coordinates and its validity, and calls
-/// `use` for each image axis with the texts of the neighbours before and after it. `values` are the two planes that a
-/// neighbour has as its coordinates.
+/// Kernel text that compares a pixel with its neighbours. It declares the pixel as `self`, with the texts `uv` and
+/// `valid` as its members; then comes what `use` makes of the texts of the neighbours before and after it, for each
+/// image axis. A neighbour's uv is loaded from the two planes `values`.
 template <class Use>
 std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section, const std::string& values,
                             const std::string& uv, const std::string& valid, const Use& use) {
@@ -79,7 +80,7 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
     return text;
 }
 
-/// Sets dn_dx and dn_dy. No use of coordinates: the compiler drops what is loaded for them.
+/// Sets dn_dx and dn_dy. Neighbours come with a uv that is not used here; the compiler drops its loads.
 std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
     section.operations += 200;
     return "        {\n" +
@@ -94,7 +95,8 @@ std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section
            "        }\n";
 }
 
-/// Sets uv and uv_valid, from the best the G-buffer has.
+/// Sets uv and uv_valid. Screen derivatives come from the planes duv_dx, duv_dy if the G-buffer has them, else from
+/// dp_du, dp_dv, else from differences to neighbours.
 std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::vector<const Layer*>& mapped,
                     Section& section) {
     section.inputs.insert({"uv.u", "uv.v"});
@@ -137,8 +139,8 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
             "        uv.dy = wr_texcoord_step(dp_dy, dp_du, dp_dv, &uv_valid);\n";
         section.operations += 90;
     } else {
-        // Derivatives by differences read four neighbours. Groups of pixels where no layer uses the coordinates skip
-        // that, unless `marked` is written: it tells of every pixel whether it had usable neighbours.
+        // Differences read four neighbours. Groups of pixels where no layer uses the coordinates skip that, unless
+        // `marked` is written, which tells for every pixel whether it has usable neighbours.
         const bool everywhere = emitter.options.split || !emitter.options.skip || emitter.scene.output.marked;
         const std::string wanted = everywhere ? "" : emit_wanted(emitter, mapped, section);
         text += wanted + fmt::format("        wr_mask usable = uv_valid{};\n", wanted.empty() ? "" : " & wanted") +
@@ -209,7 +211,7 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
                                 "                                     {3}, step_{0}, &usable);\n",
                                 axis, axis[1], before, after);
                         });
-    // What belongs to a surface is asked of the frame's own positions and normals, whatever stage this is.
+    // Whether neighbours lie on one surface is judged by the positions and normals of the frame, in later stages too.
     return "        wr_vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
            sanitize(geometry, "        ") + "        wr_real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
            load_normal("wr_load_floats({}, at.in)", "        ") +

@@ -38,7 +38,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
         section.body = mask.planes + section.body;
         return section;
     }
-    // Masks by planes are the same for all points of a pixel.
+    // What planes say of the mask holds for the whole pixel, so it is evaluated once, before the points of its area.
     const std::size_t index = emitter.index_of(layer);
     section.wanted = fmt::format("wanted_{}", index);
     section.masks = fmt::format(

@@ -40,7 +40,7 @@ Section emit_resolve(Emitter& emitter, const StageEnd& stage) {
     }
     std::string& text = section.body;
     if (!bend.empty()) {
-        // What nothing bends stays as it is, bit by bit.
+        // A normal that no layer bends keeps its bits.
         text = emitter.options.skip
                    ? fmt::format("        wr_mask bent = valid & ({});\n        if (wr_any(bent)) {{\n", sums)
                    : "        wr_mask bent = valid;\n        {\n";
@@ -80,7 +80,7 @@ Section emit_output(Emitter& emitter, bool bumped) {
     if (emitter.options.write_normal) {
         section.reads.insert("n");
         section.inputs.insert({"normal.x", "normal.y", "normal.z"});
-        // An invalid pixel keeps what it had, unless that was not finite.
+        // An invalid pixel keeps its normal, unless that is not finite.
         for (const char axis : {'x', 'y', 'z'}) {
             text += fmt::format("        wr_floats n{0} = wr_load_floats(in_normal_{0}, at.in);\n", axis);
             store(fmt::format("normal.{}", axis),

@@ -60,7 +60,7 @@ std::string emit_texcoord(Emitter& emitter, const Layer& layer, const UvOf& uv_o
 
 namespace {
 
-/// Kernel text that sets `m` to the product of what planes say of a mask.
+/// Kernel text that declares `m`, the product of the factors of a mask that come from planes.
 std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
@@ -73,14 +73,14 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
         emitter.need(who, {"object"});
         section.inputs.insert("object");
         factor(fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
-                           emitter.number(layer, "wr_mask object",
+                           emitter.number(layer, "mask object",
                                           [](const Layer& l) { return io::object_label(l.mask.object.value()); })));
     }
     if (mask.cryptomatte) {
         emitter.need(who, {"crypto.id0", "crypto.coverage0"});
-        // A float holds half of a hash at a time.
+        // A float cannot hold 32 bits, so the hash is passed as two halves.
         const std::size_t hash =
-            emitter.numbers(layer, "wr_mask cryptomatte", [who](const Layer& l, const NumberSource& s) {
+            emitter.numbers(layer, "mask cryptomatte", [who](const Layer& l, const NumberSource& s) {
                 const std::uint32_t id = cryptomatte_hash(s.cryptomatte, l.mask.cryptomatte.value(), who);
                 return std::vector<double>{static_cast<double>(id >> 16), static_cast<double>(id & 0xffff)};
             });
@@ -106,7 +106,7 @@ std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& sectio
     return text;
 }
 
-/// Whether planes do not say where a layer's mask is 0.
+/// Whether a layer may be anywhere, because no plane tells where its mask is 0.
 bool anywhere(const Layer* layer) {
     const Mask& mask = layer->mask;
     return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
@@ -150,7 +150,7 @@ MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section)
         section.operations += 60;
     }
     if (mask.invert) text += "        m = 1 - m;\n";
-    if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion: unknown is not "outside"
+    if (mask.texture && mask.texture->uv.source == UvSource::aov)  // after the inversion, which would make 1 of it
         text += "        m = uv_valid ? m : (wr_real)(0);\n";
     if (mask.channel && mask.invert) {
         const std::string value = fmt::format("wr_load({}, at.in)", identifier("channel:" + *mask.channel));

@@ -33,7 +33,7 @@ std::string grow_area_text(const Emitter& emitter, const GeometryText& geometry)
     return text;
 }
 
-/// Text that grows the tile's box around p, or around where on its ray parallaxes may move it.
+/// Text that grows the tile's box around p, or around the stretch of its ray on which parallaxes may move it.
 std::string grow_text(const Emitter& emitter, const MovedPoints& moved) {
     if (moved.text.empty()) return kIndent + "box = wr_grow(box, valid, p, axes);\n";
     const bool parallel = emitter.available.camera == CameraKind::parallel;

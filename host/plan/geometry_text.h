@@ -4,27 +4,27 @@
 
 namespace wrinkle {
 
-/// Where positions come from.
+/// How a pixel's position is computed, as kernel text.
 struct GeometryText {
     std::vector<std::string> planes;
     std::string valid;     ///< mask of the planes, as text
-    std::string position;  ///< sets p from pixel (x, y) and plane values z or px, py, pz
-    std::string along;     ///< the factor r of p = r d, d the pixel's ray; the depth itself where that is the factor
-    std::string pairs;     ///< the position with more digits, a wr_pair3; empty where the planes have no more
-    std::string here;      ///< parameters by which a neighbour is told of the pixel being evaluated ...
+    std::string position;  ///< declares p, from pixel (x, y) and the values z, or px, py, pz, of the planes
+    std::string along;     ///< r in p = r d, where d is the pixel's ray; a planar depth is r itself
+    std::string pairs;     ///< the position as a wr_pair3, in twice the precision; empty where there is no more than p
+    std::string here;      ///< parameters of the helper for neighbours: what it must know of the pixel itself ...
     std::string given;     ///< ... and the arguments for them
-    std::string step;      ///< sets p to a neighbour's position less that of the pixel being evaluated
+    std::string step;      ///< declares p, a neighbour's position relative to the pixel's
 };
 
 GeometryText geometry_text(const Emitter& emitter);
 /// Text that loads one pixel's geometry; `load` is the loading function with its place.
 std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent);
 std::string load_normal(const std::string& load, const std::string& indent);
-/// Replaces what invalid pixels hold by something harmless, so that nothing later needs to ask.
+/// Text that gives invalid pixels harmless values, so that nothing later has to test for NaN or Inf.
 std::string sanitize(const GeometryText& geometry, const std::string& indent);
-/// What lies along the ray from the viewer, of any length.
+/// Text of a vector along the pixel's ray, away from the viewer, of any length.
 const char* view_text(const Emitter& emitter);
-/// Unit vector from p to the viewer.
+/// Text of the unit vector from p to the viewer.
 const char* to_viewer_text(const Emitter& emitter);
 
 }  // namespace wrinkle

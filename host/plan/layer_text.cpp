@@ -27,6 +27,20 @@ std::string sample_text(const TextureUse& use, const std::string& st, const std:
                        kind == TexelKind::slope && !wanted.empty() ? ", " + wanted : "");
 }
 
+std::size_t LayerText::matrix(const std::string& what, std::function<std::array<Vec3, 3>(const Layer&)> of) {
+    return emitter.numbers(layer, what, [of = std::move(of)](const Layer& l, const NumberSource&) {
+        std::vector<double> numbers;
+        for (const Vec3& row : of(l)) numbers.insert(numbers.end(), row.begin(), row.end());
+        return numbers;
+    });
+}
+
+std::string LayerText::turned(const std::string& what, std::function<std::array<Vec3, 3>(const Layer&)> of) {
+    const std::size_t rows = matrix(what, std::move(of));
+    return fmt::format("        v = wr_turn(wr_v3(numbers + {}), wr_v3(numbers + {}), wr_v3(numbers + {}), v);\n", rows,
+                       rows + 3, rows + 6);
+}
+
 std::string LayerText::strength() { return number("scale", signed_scale); }
 
 const char* LayerText::exactly() const { return emitter.precision(layer) == Precision::exact ? "_exact" : ""; }

@@ -4,49 +4,54 @@
 
 namespace wrinkle {
 
-/// What the kinds of layers share when they become kernel text. The text stands in a block where `m` holds the mask and
-/// `active` the lanes that want the layer; it adds to g or dh_dp.
+/// Writes the kernel text of a layer. The text goes into a block in which `m` is the mask and `active` holds the lanes
+/// where the mask is not 0; it adds to g, the surface gradient, or dh_dp, the volume gradient.
 struct LayerText {
     Emitter& emitter;
-    const std::vector<const Layer*>& layers;  ///< that share a section; one, unless its kind joins them
+    const std::vector<const Layer*>& layers;  ///< of the section: one, or several of a kind that joins them
     const Layer& layer;                       ///< the first of them
     const std::string who;                    ///< starts messages
     Section& section;
-    /// What does not differ between the points of a pixel's area: declarations, and the statements that set them, which
-    /// stand before the first point and are skipped where no pixel wants the layer. Both empty where it has one point.
+    /// Values that are the same at every point of a pixel's area: their declarations, and the statements that set them
+    /// before the first point, skipped where no pixel wants the layer. Both are empty where a pixel is one point.
     std::string declared{}, prepared{};
     bool loses = false;  ///< `lost` is declared: what slopes vary by that are finer than a point's share of the area
 
-    /// Kernel text of a number of the layer, or of three as a vector; `what`: for people to read.
+    /// Kernel text of a number of the layer, or of three as a vector; `what` names it in messages.
     std::string number(const std::string& what, std::function<double(const Layer&)> of) {
         return emitter.number(layer, what, std::move(of));
     }
     std::string vector(const std::string& what, std::function<Vec3(const Layer&)> of) {
         return emitter.vector(layer, what, std::move(of));
     }
+    /// Index of the first of nine numbers of the layer: a matrix, row by row.
+    std::size_t matrix(const std::string& what, std::function<std::array<Vec3, 3>(const Layer&)> of);
+    /// Statement that multiplies the vector `v` by such a matrix.
+    std::string turned(const std::string& what, std::function<std::array<Vec3, 3>(const Layer&)> of);
     /// The layer's scale, with the sign of its blend.
     std::string strength();
-    /// What ends the name of a kernel function that has an exact variant.
+    /// "_exact" if the layer is to use the exact variants of kernel functions, which have names that end so; else "".
     const char* exactly() const;
-    /// Kernel text of a value that does not differ between the points of a pixel's area, set once for all of them.
+    /// Kernel text of a value that is the same at every point of a pixel's area, and is computed once for all of them.
     std::string once(const char* type, const char* name, const std::string& value);
-    /// Level of detail of texture `t` for these derivatives of its coordinates.
+    /// Text of the level of detail of texture `t`, given the screen derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
-    /// Declares coordinates `c`, by the layer's own mapping, texture `t` and its sample.
+    /// Declares coordinates `c`, by the layer's own mapping, texture `t`, and its sample under the name in `declared`.
     std::string textured(const TextureUse& use, const char* declared = "wr_vec2 slope");
     /// Declares coordinates `c` and texture `t`.
     std::string located(const TextureUse& use, TexelKind kind);
-    /// Adds the surface gradient of a height, of the kernel function of that name and its arguments after dp_dx, dp_dy.
+    /// Adds the surface gradient that wr_surface_gradient_FUNCTION(n, dp_dx, dp_dy, ARGUMENTS) gives.
     std::string slopes(const std::string& function, const std::string& arguments);
-    /// Whether the layer is evaluated at several points of the pixel's area, whose footprints are alike.
+    /// Whether the layer is evaluated at several points of the pixel's area; they all have the same footprint.
     bool over_area() const;
-    /// Whether the layer is to tell what of it is finer than a point's share of the pixel's area, by adding that
-    /// covariance of slopes to `finer`.
+    /// Whether the layer has to report the detail that a point's footprint averages away: it adds the covariance of
+    /// those slopes to `finer`.
     bool tells_spread() const;
-    /// Adds the covariance `lost` of slopes along s and t, given the kernel text of the surface gradient that a slope
-    /// of 1 along s makes, and one along t. Nothing where it is not to be told.
+    /// Adds to it the covariance `lost` of slopes along s and t, given the text of the surface gradients that a slope
+    /// of 1 along s, and one along t, makes. Empty unless tells_spread().
     std::string spread(const std::string& along_s, const std::string& along_t);
-    /// Adds a volume gradient, to be projected onto the surface unless the layer says otherwise.
+    /// Adds a volume gradient: to dh_dp, which is projected onto the surface later, or to g if the layer is not
+    /// projected.
     std::string volume(const std::string& gradient);
 };
 
@@ -57,15 +62,16 @@ inline const UvMapping& own_uv(const Layer& layer) { return *find_uv(layer); }
 
 /// How the texels of `use` are stored.
 TexelKind texel_kind(const TextureUse& use);
-/// Kernel text that samples `use`, a texture `t`; slopes only where the mask `wanted` holds, if there is one.
+/// Kernel text that samples `use` from texture `t`. Lanes outside the mask `wanted`, if one is given, may get slopes of
+/// 0.
 std::string sample_text(const TextureUse& use, const std::string& st, const std::string& lod,
                         const std::string& wanted = "");
 /// Expected operations of such a sample.
 double sample_cost(const TextureUse& use);
 
-/// How far layers may move a point before the last table of decals sees it.
+/// How far layers may move a point before the last table of decals is evaluated there: tiles must cover that way.
 struct MovedPoints {
-    std::string text;        ///< adds to `nearer` and `farther`, metres along the ray, going by n, v and distance
+    std::string text;        ///< adds to `nearer` and `farther`, metres along the ray; reads v, distance and perhaps n
     bool by_normal = false;  ///< the text reads n, the base normal
 };
 MovedPoints moved_points(Emitter& emitter, const std::string& indent);

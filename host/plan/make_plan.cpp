@@ -9,7 +9,7 @@ namespace wrinkle {
 
 namespace {
 
-/// The user's own functions, told apart by their files' names and lines.
+/// The user's own functions, with #line, so that the compiler reports errors by the user's file and line.
 std::string user_text(const Emitter& emitter) {
     std::string text;
     for (const auto& [function, parameters] : emitter.user_parameters) text += parameters + "\n";
@@ -24,7 +24,7 @@ std::string user_text(const Emitter& emitter) {
 /// The layers between two resolves.
 struct Stage {
     std::vector<Section> layers;
-    std::vector<const Layer*> mapped;  ///< those by texture coordinates
+    std::vector<const Layer*> mapped;  ///< those that use texture coordinates
     std::set<std::string> reads;
     StageEnd end;
 };
@@ -54,7 +54,8 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
     return stages;
 }
 
-/// Whether light can fall on the points of pixels' areas: once layers vary over them, nothing else bends the normal.
+/// Whether light is to fall on every point of pixels' areas. It cannot where a layer that is evaluated once a pixel
+/// comes after layers that vary over the area: it would bend normals that are lit already.
 bool lights_points(const Emitter& emitter, const std::vector<Stage>& stages) {
     const Scene& scene = emitter.scene;
     if (!emitter.options.write_normal || scene.lighting.relight == Relight::off || scene.filter.light_mean ||
@@ -69,7 +70,7 @@ bool lights_points(const Emitter& emitter, const std::vector<Stage>& stages) {
     return area;
 }
 
-/// Joins consecutive sections that vary over a pixel's area.
+/// The sections of a stage, those joined that are consecutive and vary over pixels' areas.
 std::vector<Section> join_areas(Emitter& emitter, Stage& stage, AreaUse& use) {
     std::vector<Section> joined;
     for (std::size_t i = 0; i < stage.layers.size();) {
@@ -121,7 +122,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         const bool bends = stage.end.surface || stage.end.volume;
         stage.end.more = s + 1 < stages.size();
         if (!emitter.options.write_normal || !(bends || stage.end.more)) continue;
-        stage.end.derivatives = derivatives && !stage.end.turns;  // a turned n is yet to face the viewer
+        stage.end.derivatives = derivatives && !stage.end.turns;  // a turned n may face away
         derivatives = stage.end.more && (written || stages[s + 1].reads.contains("dp_dx"));
         stage.end.wants_derivatives = derivatives;
         add(emit_resolve(emitter, stage.end), static_cast<int>(s));
@@ -130,7 +131,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     const int last = static_cast<int>(stages.size()) - 1;
     if (relight && emitter.options.write_normal) add(emit_lighting(emitter, {area.lights, area.spread}), last);
     add(emit_output(emitter, bumped), last);
-    if (emitter.options.split)  // where fused kernels start from zero, split ones must find zero in memory
+    if (emitter.options.split)  // split kernels read the sums from memory: the first one has to write zeros there
         for (const char* sum : {"g", "dh_dp"})
             if (std::ranges::any_of(sections, [&](const Section& s) { return s.reads.contains(sum); }))
                 sections.front().writes.insert(sum);
@@ -153,7 +154,7 @@ std::string declare(const Value& value) {
     return fmt::format("    {} {} = {};\n", type, value.name, zero);
 }
 
-/// Kernel text of consecutive sections. Split plans carry values through scratch planes.
+/// One kernel for consecutive sections. Split plans carry values from kernel to kernel through scratch planes.
 PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector<const Section*>& sections,
                           bool split) {
     std::set<std::string> inputs, used, loaded, stored;
@@ -240,12 +241,13 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     if (emitter.plan.projectors > 0) tiles = emit_bins(emitter, bins);
     Plan plan = std::move(emitter.plan);
     plan.tiles = std::move(tiles);
-    // Few streams of stores: the write-combining buffers hold them all, so even half lines may go past the cache.
+    // The write-combining buffers of a core can hold this many streams, so even half cache lines may bypass the cache.
     constexpr std::size_t kFewOutputs = 3;
     plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
                   ("#include \"wrinkle.clh\"\n\n" + user_text(emitter) + emitter.helpers + bins);
 
-    // Not where kernels add to planes, since blocks may share pixels, nor where neighbours lie a lane further.
+    // Not in split plans, whose kernels add to planes: blocks may overlap, and a pixel would be added to twice. Not
+    // with neighbours, which are loaded as the row of pixels one further on.
     plan.blocks = plan.projectors > 0 && !plan.neighbours && !options.split;
 
     std::set<std::string> inputs;

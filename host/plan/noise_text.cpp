@@ -8,7 +8,7 @@ namespace wrinkle {
 
 namespace {
 
-constexpr double kPairs = 110;  // expected operations more, of an octave
+constexpr double kPairs = 110;  // expected additional operations of an octave
 
 /// Expected operations of an octave.
 double octave_cost(const NoiseLayer& l) {
@@ -40,7 +40,7 @@ public:
     std::string operator()(const std::string& what, double (*value)(const NoiseLayer&)) const {
         return at_.number(what, [of = of_, value](const Layer& layer) { return value(of(layer)); });
     }
-    /// Two at a time, with a comma between.
+    /// Two numbers, with a comma between.
     std::string pair(const std::string& what, const std::array<double, 2>& (*value)(const NoiseLayer&)) const {
         const std::size_t first =
             at_.emitter.numbers(at_.layer, what, [of = of_, value](const Layer& layer, const auto&) {
@@ -55,8 +55,8 @@ private:
     const NoiseOf& of_;
 };
 
-/// The noise as kernel text: a wr_noise. What chooses code is a constant; so is whether it repeats and whether it
-/// flows, as a noise that does neither is spared the operations.
+/// Kernel text of a wr_noise. What chooses code is a constant; so is whether the noise repeats or flows, because one
+/// that does neither then needs fewer operations.
 std::string noise_text(LayerText& at, const NoiseLayer& l, const NoiseOf& of) {
     const char* const gradients[] = {"WR_ANALYTIC", "WR_FORWARD", "WR_CENTRAL"};
     std::string text = fmt::format(".basis = {}, .gradient = {}", basis(l), gradients[static_cast<int>(l.gradient)]);
@@ -77,7 +77,7 @@ std::string noise_text(LayerText& at, const NoiseLayer& l, const NoiseOf& of) {
     return "{" + text + "}";
 }
 
-/// The fractal as kernel text, likewise.
+/// Kernel text of a wr_fractal.
 std::string fractal_text(LayerText& at, const NoiseLayer& l, const NoiseOf& of, bool pairs) {
     const NoiseNumbers number(at, of);
     const char* const kinds[] = {"WR_SUM", "WR_TURBULENCE", "WR_RIDGED"};
@@ -94,7 +94,7 @@ std::string fractal_text(LayerText& at, const NoiseLayer& l, const NoiseOf& of, 
     return "(wr_fractal){" + text + "}";
 }
 
-/// Statements that compose f with the shape.
+/// Statements that apply the shape to f.
 std::string shape_text(LayerText& at, const NoiseShape& shape, const NoiseOf& of) {
     const NoiseNumbers number(at, of);
     std::string text;
@@ -112,7 +112,7 @@ std::string shape_text(LayerText& at, const NoiseShape& shape, const NoiseOf& of
     return text;
 }
 
-/// In how many cells octave `i` repeats on each axis: what its lattice origin may be reduced by.
+/// Number of cells after which octave `i` repeats on each axis; its lattice origin is reduced modulo that.
 Periods lattice_period(const NoiseLayer& l, int i) {
     if (l.type != NoiseType::simplex) return 256;
     Vec3 period{};
@@ -120,7 +120,7 @@ Periods lattice_period(const NoiseLayer& l, int i) {
     return Periods(period);
 }
 
-/// The eye in the lattice of octave `i`, and the octave's frequency; or what floats leave of them.
+/// The eye in the lattice of octave `i`, and the octave's frequency; if `low`, what these lose when rounded to float.
 EyePlace octave_eye_place(const NoiseLayer& l, const NoiseAxes& space, int i, bool low) {
     double frequency = l.frequency;
     for (int octave = 0; octave < i; ++octave) frequency *= l.lacunarity;
@@ -132,7 +132,7 @@ EyePlace octave_eye_place(const NoiseLayer& l, const NoiseAxes& space, int i, bo
     return origin;
 }
 
-/// Adds the eye_places of all octaves, or what floats leave of them; gives the number of the first.
+/// Adds such an eye_place for every octave; returns the index of the first.
 std::size_t add_lattice(LayerText& at, const NoiseLayer& l, const NoiseOf& of, const NoiseSpace& space, bool low) {
     const std::size_t first = at.emitter.plan.eye_places.size();
     for (int i = 0; i < l.octaves; ++i)
@@ -161,7 +161,7 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
     std::string text = area ? "        wr_real lost;\n" : "";
     std::string walk;
     if (area) {
-        // Each noise of a layer has octaves of its own to hold.
+        // A layer may have several noises, each with octaves of its own to hold from point to point.
         const std::string held = fmt::format("held_{}", 4 * first);
         at.declared += fmt::format("        wr_field {}[{}];\n", held, l.octaves);
         text +=
@@ -173,7 +173,8 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
                         points, at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active, walk);
     const std::string shape = shape_text(at, l.shape, of);
     if (!spread || shape.empty()) return text + shape;
-    // A shape scales gradients by its derivative, which a gradient of 1 then is.
+    // A shape multiplies the gradient by its derivative. Applied to a gradient of 1 it gives the derivative itself,
+    // which the lost variance needs too.
     return text +
            "        wr_vec3 noise_gradient = f.gradient;\n"
            "        f.gradient = wr_v3((wr_real)(1), (wr_real)(0), (wr_real)(0));\n" +

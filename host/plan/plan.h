@@ -49,7 +49,7 @@ struct PlanOptions {
     bool volume_gradient = false;  ///< write the sum of the volume gradients before any projection (accumulate_decals)
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
     Precisions precision{};
-    // What plans save, to be measured by leaving it out:
+    // Savings, which the benchmark switches off to measure what they are worth:
     bool skip = true;       ///< groups of pixels that do not want a layer, or lie outside a decal, skip it
     bool switches = false;  ///< branch at run time around every layer; those of scale 0 are switched off
 };
@@ -60,14 +60,14 @@ struct Periods : Vec3 {
     constexpr explicit Periods(const Vec3& each) : Vec3(each) {}
 };
 
-/// A number triple that changes with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period_k) when that is
-/// set.
+/// Three numbers that change with the eye: value_k = axes_k . eye + offset_k, reduced to [0, period_k) where there is a
+/// period.
 struct EyePlace {
     std::array<Vec3, 3> axes{};
     Vec3 offset{};
     Periods period = 0;
-    double fourth = 0;  ///< a number that travels with them: the frequency of an octave
-    bool low = false;   ///< what a float leaves of these four numbers instead of them
+    double fourth = 0;  ///< stored after the three: the frequency of an octave
+    bool low = false;   ///< gives, instead of the four numbers, what they lose when they are rounded to float
 };
 
 /// What numbers of a plan are taken from: any scene of the structure that was planned.
@@ -104,7 +104,7 @@ struct PlannedTexture {
     std::string layer{};                       ///< label of the first layer that uses it, for messages
 };
 
-/// A projector that every pixel asks, as a layer of its own.
+/// A decal that is a layer of its own: every pixel is tested against it, without tiles.
 struct PlannedDecal {
     std::size_t layer = 0;  ///< of the scene
     ProjectedImage image;

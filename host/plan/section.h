@@ -8,7 +8,7 @@
 
 namespace wrinkle {
 
-/// A value that sections hand on: a variable in a fused kernel, planes between split ones.
+/// A value that one section hands on to later ones: a variable of a fused kernel, scratch planes between split kernels.
 struct Value {
     const char* name;
     const char* type;
@@ -19,19 +19,20 @@ const std::vector<Value>& values();
 
 /// A step of the evaluation as kernel text, with the values it reads and those it sets.
 struct Section {
-    std::string title;      ///< for people; names of layers stay out of the text, so that they compile nothing
-    const char* kind = "";  ///< of a layer; what the text says of the section
+    std::string title;      ///< for people; it is not in the text, so that renaming a layer compiles nothing
+    const char* kind = "";  ///< of a layer; a comment in the text names the section by it
     std::string body;
     std::set<std::string> reads, writes;
     std::set<std::string> inputs;  ///< planes
     std::vector<std::string> outputs;
     double operations = 0;
     int stage = 0;
-    std::vector<SectionSummary> parts{};  ///< what people are told of; none: of the section itself
-    bool area = false;     ///< a layer that varies over a pixel's area; its body is evaluated at points of it
-    std::string wanted;    ///< of such a layer: the name of the lanes that want it
-    std::string masks;     ///< ... what is declared for all points, and the mask by planes
-    std::string prepared;  ///< ... and what is set then for all points
+    std::vector<SectionSummary> parts{};  ///< what `explain` lists; empty: the section itself
+    bool area =
+        false;  ///< a layer whose body is evaluated at several points of a pixel's area; it has, before the first:
+    std::string wanted;    ///< ... the name of the mask that is true where the layer is wanted
+    std::string masks;     ///< ... its declarations, and the mask as far as it comes from planes
+    std::string prepared;  ///< ... then the statements that set what all points share
 };
 
 /// What emitters share while a plan grows.
@@ -42,24 +43,24 @@ struct Emitter {
     const PlanOptions& options;
     Plan plan;
     std::string helpers;  ///< functions that precede the kernels
-    /// The user's own kernel text by the file that it is from, and what stands before it: a structure of parameters by
-    /// the name of the function that takes it.
+    /// The user's own kernel text by its file, and the structures of parameters that precede it, by the function that
+    /// takes them.
     std::map<std::string, std::string> user_files{}, user_parameters{};
 
     /// The variant that a layer of the scene is to have.
     Precision precision(const Layer& layer) const;
     Precision geometry_precision() const;
-    /// Number of a texture in the table; the same use is stored once.
+    /// Number of a texture in the table; equal uses share one.
     std::size_t texture(const TextureUse& use, TexelKind kind);
     /// Number of a volume in the same table.
     std::size_t volume(const VolumeLayer& layer, TexelKind kind);
-    /// Index of the first of several numbers of a layer; `what` they are, for people to read.
+    /// Index of the first of several numbers of a layer; `what` names them in messages.
     std::size_t numbers(const Layer& layer, const std::string& what,
                         std::function<std::vector<double>(const Layer&, const NumberSource&)> of);
     /// Kernel text of one number of a layer, or of three as a vector.
     std::string number(const Layer& layer, const std::string& what, std::function<double(const Layer&)> of);
     std::string vector(const Layer& layer, const std::string& what, std::function<Vec3(const Layer&)> of);
-    /// Index of the first of four numbers of a layer that follow the eye.
+    /// Index of a group of four numbers of a layer that change with the eye.
     std::size_t eye_place(const Layer& layer, std::function<EyePlace(const Layer&)> of);
     /// The layer's place in the scene.
     std::size_t index_of(const Layer& layer) const { return static_cast<std::size_t>(&layer - scene.layers.data()); }
@@ -69,8 +70,8 @@ struct Emitter {
     bool has(const std::string& plane) const { return available.planes.contains(plane); }
 };
 
-/// Hash of a Cryptomatte name among those known, or of "#" and its 8 hex digits. Throws Error, `who` first, listing the
-/// names, when there is no such.
+/// Hash of a Cryptomatte name: one that is known, or "#" and the hash as 8 hex digits. Throws Error, which begins with
+/// `who` and lists the known names, when it is neither.
 std::uint32_t cryptomatte_hash(const std::map<std::string, std::uint32_t>& known, const std::string& name,
                                const std::string& who);
 /// Name of a plane as an identifier; different planes have different ones.
@@ -78,41 +79,44 @@ std::string identifier(const std::string& plane);
 
 /// Where a layer comes from and its name, to start a message: scene.toml:12: layer "dents".
 std::string layer_label(const Layer& layer);
-/// Where a row of a table comes from: decals.csv:12; of files without lines, and of rows made in code, its number.
+/// Where a row of a table comes from: decals.csv:12. Rows of files without lines, and of code, are told by their
+/// number.
 std::string row_place(const DecalsLayer& table, std::size_t row);
 
-/// Emits the layers that one section holds: a single one, or several that share a loop.
+/// The section of one layer, or of several that share a loop.
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 /// How many layers from `first` on go into one section.
 std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first);
 /// Kernel text that sets `m`, in [0,1], and `active`, and the planes it reads.
 std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
-/// The same in two parts: what planes say of it, which is the same for all of a pixel, and the rest.
+/// The same in two parts: the factors that come from planes, which hold for the whole pixel, and the rest.
 struct MaskText {
     std::string planes;  ///< declares m
     std::string rest;    ///< goes on with m, and declares active
-    bool everywhere;     ///< `planes` does not say where it is 0
+    bool everywhere;     ///< no plane tells where the mask is 0, so the layer may be anywhere
 };
 MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section);
-/// Kernel text that declares `wanted`: true wherever one of the layers may be, by what planes say of their masks. No
-/// text where a layer has no such mask and may be anywhere.
+/// Kernel text that declares `wanted`: true wherever one of the layers may be, as far as planes tell of their masks.
+/// Empty where one of them may be anywhere.
 std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layers, Section& section);
-/// The mapping that a layer's texture lies by; that of a mask's texture.
+/// Gets one of a layer's mappings: that of its texture, or that of its mask's.
 using UvOf = std::function<const UvMapping&(const Layer&)>;
 /// Kernel text that declares the texture coordinates `c` of a mapping.
 std::string emit_texcoord(Emitter& emitter, const Layer& layer, const UvOf& uv_of, Wrap wrap, const std::string& who,
                           Section& section);
-/// Decodes the G-buffer: valid, marked, p, n and what else of `wanted` is needed; texture coordinates by `mapped`.
+/// Decodes the G-buffer: sets valid, marked, p, n, and those of the values `wanted` that planes give. `mapped` are the
+/// layers that use texture coordinates.
 Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const std::vector<const Layer*>& mapped);
-/// Kernel text that declares `dh`, the change of a height plane from pixel to pixel, 0 and marked where there is none.
+/// Kernel text that declares `dh`, the change of a height plane per pixel. Where no neighbour is on the same surface,
+/// it is 0 and the pixel is marked.
 std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section);
 /// The kernel that measures the tiles of the frame, for the bins of decals.
 PlannedKernel emit_tiles(Emitter& emitter, std::string& source);
 /// The kernels that bin decals; gives the one that measures tiles, which reads planes.
 PlannedKernel emit_bins(Emitter& emitter, std::string& source);
-/// Kernel text that sets dp_dx and dp_dy of p and n; `along`: the factor r of p = r d, d the pixel's ray.
+/// Kernel text that sets dp_dx and dp_dy, from p and n. `along` is text of r in p = r d, where d is the pixel's ray.
 std::string derivative_text(const Emitter& emitter, const std::string& along = "wr_along_ray(p, d)");
-/// Kernel text that turns n towards the viewer; `away` where it had to.
+/// Kernel text that turns n towards the viewer, and declares `away`: true where it faced away.
 std::string face_viewer_text(const Emitter& emitter);
 /// How a stage ends.
 struct StageEnd {
@@ -120,32 +124,32 @@ struct StageEnd {
     bool turns = false;                    ///< layers turn n themselves
     bool more = false;                     ///< another stage follows; only then are derivatives wanted
     bool derivatives = false;              ///< dp_dx and dp_dy are those of this stage's n
-    bool wants_derivatives = false;        ///< those of the bent surface are wanted
+    bool wants_derivatives = false;        ///< dp_dx and dp_dy of the bumped surface are wanted
 };
 /// Projects, resolves, and sets up the next stage if there is one.
 Section emit_resolve(Emitter& emitter, const StageEnd& stage);
-/// Layers over a pixel's area, and what is known of what follows.
+/// What a section over pixels' areas computes beside the mean gradients.
 struct AreaUse {
-    bool spread = false;  ///< the covariance of the slopes is wanted
-    bool lights = false;  ///< light falls on every point of the area; a later area does so anew where it bends
-    bool first = true;    ///< no area is before it
+    bool spread = false;  ///< the covariance of the slopes
+    bool lights = false;  ///< the light on every point; a later such section lights anew the pixels that it bends
+    bool first = true;    ///< no such section comes before
 };
-/// One section for consecutive ones that vary over the area: evaluates them at several points of it, and sets g and
-/// dh_dp to the means.
+/// Joins consecutive sections into one that evaluates them at several points of a pixel's area, and sets g and dh_dp to
+/// the means.
 Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const AreaUse& use);
-/// Whether a scene's layers are evaluated at several points of a pixel, or their spread is wanted.
+/// Whether layers are evaluated over pixels' areas: at several points, or at one with the spread around it.
 bool walks_area(const Emitter& emitter);
-/// Kernel text that declares the long axis of the pixel's area, `taps`.
+/// Kernel text that declares `taps`: the long axis of the pixel's area, and one point on it.
 std::string axis_text(const Emitter& emitter);
-/// Whether a layer is evaluated at several points of a pixel's area. A table of decals is not where a parallax before
-/// it moves points: the tiles that it is binned to would have to know how far.
+/// Whether a layer is evaluated over pixels' areas. A table of decals is not if a parallax before it moves points: the
+/// boxes of its tiles would have to cover where each point of the area is moved.
 bool varies_over_area(const Emitter& emitter, const Layer& layer);
 /// Whether a scene wants to know how the slopes vary over a pixel.
 bool wants_spread(const Emitter& emitter);
 
-/// What lighting is given.
+/// What is known when the lighting is reached.
 struct LightEnd {
-    bool at_taps = false;  ///< `lit` is there: the mean over the pixel's area
+    bool at_taps = false;  ///< `lit`, the mean over the points of the pixel's area
     bool spread = false;   ///< the covariance of the slopes is known
 };
 Section emit_lighting(Emitter& emitter, const LightEnd& end);

@@ -31,7 +31,7 @@ public:
     /// The decals as one camera sees them, and the buffer that kernels read them from.
     void set_camera(const FrameConstants& constants, const Camera& camera, cl::Buffer projectors);
 
-    /// Bins for rows of the frame; `in` holds the planes, `in_first` pixels of other rows before them.
+    /// Bins for rows of the frame. `in` are the planes, in which the rows begin at pixel `in_first`.
     cl::Event enqueue(const cl::Buffer& frame, const cl::Buffer& numbers, const std::vector<cl::Buffer>& in,
                       const Rows& rows, std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
                       const std::vector<cl::Event>& wait);

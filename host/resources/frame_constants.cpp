@@ -80,8 +80,8 @@ wr_camera camera_constants(const Camera& camera, Size size) {
         frame.w[i] = inverse_vps[3][i];
         for (std::size_t k = 0; k < 3; ++k) (*columns[i])[k] = inverse_vps[k][i] - eye[k] * frame.w[i];
     }
-    // The rays of a parallel projection have no eye, but one direction: `forward`, as long as it takes to get one unit
-    // deeper into the view. A sheared projection's rays are not parallel to the camera's axis. Pixel (x, y) lies at
+    // The rays of a parallel projection have no eye, but one direction: `forward`, which leads from one view depth to
+    // that 1 deeper. In a sheared projection it is not parallel to the camera's axis. Pixel (x, y) shows the point
     // d0 + x dx + y dy at view depth 0.
     if (frame.w[0] == 0 && frame.w[1] == 0 && frame.w[2] == 0) {
         const Vec3 axis{frame.forward[0], frame.forward[1], frame.forward[2]},

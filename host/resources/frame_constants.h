@@ -13,7 +13,7 @@ namespace wrinkle {
 struct FrameConstants {
     wr_camera frame{};
     std::vector<double> numbers;     ///< of the scene, as planned
-    std::vector<double> eye_places;  ///< 4 numbers an origin
+    std::vector<double> eye_places;  ///< 4 numbers for each that is planned
     std::vector<wr_projector> decals;
     std::vector<wr_projector> projectors;  ///< of all tables, in the order of evaluation
     wr_lighting lighting{};

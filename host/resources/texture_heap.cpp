@@ -119,7 +119,8 @@ void append(TextureHeap& heap, const Image& level, Wrap wrap) {
         }
 }
 
-/// The squares of two slopes and their product, for the covariance of what a level no longer shows.
+/// The squares of two slopes and their product. Their means give the covariance of the slopes that a level has
+/// averaged.
 Image products(const Image& slopes) {
     Image out{slopes.width, slopes.height, 3, {}};
     out.texels.reserve(slopes.texels.size() / 2 * 3);

@@ -18,9 +18,10 @@ struct TextureHeap {
 /// Floats after all texels: the last pair of a row may be read as four floats.
 constexpr std::size_t kTexelsAfterTheLast = 4;
 
-/// Adds one image as the plan's texels: heights and masks as they are; heights for the smooth upscale as slopes by the
-/// Sobel operator per level [Mik20 eq. 20, 21]; tangent normals as slopes per texel [listing 2], mip-mapped as slopes;
-/// slopes as they are; object-space normals as vectors of four floats.
+/// Adds one image as the texels that the plan wants: heights and masks as they are; heights for the smooth upscale as
+/// slopes by the Sobel operator [Mik20 eq. 20, 21]; tangent normals as slopes [listing 2]; slopes as they are, or their
+/// squares and product; object-space normals as vectors of four floats. Every texel of a coarser level is a mean of
+/// texels of the finest one.
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned);
 
 /// Loads all textures of a plan. Throws Error for files that cannot be used, naming the layer that does.

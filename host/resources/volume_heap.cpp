@@ -132,8 +132,8 @@ private:
                         volume_.info.grid));
     }
 
-    /// Marks the blocks to fill: whatever is not background makes those differ that reach into it. What lies deep
-    /// within a constant region, which may be nearly all of a grid, gets that constant without being looked at again.
+    /// Marks the blocks to fill: those that hold, or reach into, anything but background. A block deep within a
+    /// constant region, and nearly all of a grid may be one, gets that constant here, and is not looked at again.
     void mark() {
         std::int32_t last = -1;
         std::size_t start = 0, place = 0;
@@ -179,7 +179,7 @@ private:
                 for (int dx = -1; dx <= after; ++dx) texel_of(x + dx, y + dy, z + dz) = as_texel(kToFill);
     }
 
-    /// Where the voxels of a block of the ringed box start, which are stored unless they are there already.
+    /// Where the voxels of a block of the ringed box start. Stores them first, unless they are stored already.
     std::size_t store(const std::array<int, 3>& block, std::vector<float>& voxels) {
         std::array<int, 3> at;
         for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = volume_.first[axis] - Volume::ring + block[axis];

@@ -18,7 +18,7 @@ public:
     /// A frame begins, in bands of `band_rows` rows, the last one shorter.
     virtual void start(const Camera& camera, std::uint32_t band_rows) = 0;
 
-    /// The next band: what a pass, which is done, made of `inputs`; doubles if `fp64`. Blocks.
+    /// The next band: its planes, and what a pass that has completed made of them, in double if `fp64`. Blocks.
     virtual void add(const PlaneBuffers& inputs, const Rows& rows, PlaneBuffers& outputs, bool fp64) = 0;
 };
 

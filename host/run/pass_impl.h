@@ -45,7 +45,7 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
 
     void set_camera(const Camera& other);
     void set_parameters(const Scene& other);
-    /// Evaluates what depends on the camera and on the scene's numbers, and has it on the device.
+    /// Computes the constants that depend on the camera and on the scene's numbers, and uploads them.
     void upload_constants();
     /// Evaluates the rows, or only `some` of their work-items where any are given.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
@@ -57,8 +57,8 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
 
     /// Writes the program to the disk cache, once; after the first kernels ran.
     void save();
-    /// The same for kernels that callers enqueued, which nobody here waits for: nothing is done until the first of them
-    /// are complete.
+    /// The same for kernels that callers enqueue, and wait for themselves: does nothing until the first of them has
+    /// completed.
     void save_if_complete();
     std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
 };

@@ -10,7 +10,7 @@
 namespace wrinkle::scene {
 namespace {
 
-/// Readers of a scene's file visit `scene`; what they would bring into form there concerns nobody here.
+/// Has the readers of scene files visit a copy of `scene`. They check it; what they normalise in the copy is not used.
 Document visit(LayerKinds kinds, Scene scene, bool check_files) {
     Document document{{}, check_files, Problems("")};
     Table root(document, "the scene");

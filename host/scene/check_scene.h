@@ -13,8 +13,8 @@ std::vector<Structure> check_scene(LayerKinds kinds, const Scene& scene);
 /// What of a scene is compiled in, whatever else is wrong with it.
 std::vector<Structure> structure_of(LayerKinds kinds, const Scene& scene);
 
-/// The files that a scene is made of and names, but for tables, whose rows it holds. Some of the names may be of things
-/// that are no files.
+/// The files that a scene was read from or names, except tables, whose rows it holds already. Some of the names may not
+/// be those of files.
 std::vector<std::filesystem::path> files_of(LayerKinds kinds, const Scene& scene);
 
 /// Throws Error naming the first value of `wanted` that is not that of `made`.

@@ -32,7 +32,7 @@ std::string number(double value, double& out, const Range& range) {
     return {};
 }
 
-/// The number that a whole field is; NaN, which is out of every range, where it is none.
+/// The number that a field holds; NaN, which is outside of every range, where the field is not a number as a whole.
 double parsed(std::string_view field) {
     if (field.front() == '+') field.remove_prefix(1);
     double value = 0;
@@ -104,14 +104,14 @@ std::string object(double value, std::optional<double>& out) {
     return problem;
 }
 
-/// A column of numbers that `READ(value, member)` checks, and `WRONG(member)` in a row.
+/// A column of numbers: READ(value, member) checks and sets a field's, WRONG(member) checks the one that a row holds.
 #define CHECKED(NAME, KEY, SIZE, MEMBER, READ, WRONG, WRITE)                                                      \
     {                                                                                                             \
         NAME, KEY, SIZE, Field::number, [](std::string_view f, Projector& p) { return READ(parsed(f), MEMBER); }, \
             [](double value, Projector& p) { return READ(value, MEMBER); },                                       \
             [](const Projector& p) { return WRONG(MEMBER); }, [](const Projector& p) { return WRITE; }            \
     }
-/// A column of numbers in a range; rows that are no file's may hold those of another.
+/// A column of numbers in RANGE; rows that were made in code may have any in HELD.
 #define RANGED(NAME, KEY, SIZE, MEMBER, RANGE, HELD)                                             \
     {                                                                                            \
         NAME, KEY, SIZE, Field::number,                                                          \
@@ -158,7 +158,7 @@ constexpr DecalColumn columns[] = {
     NUMBER("opacity", opacity, zero_to_one),
     NUMBER("priority", priority, any_number),
     {"object", "object", 0, Field::number, [](std::string_view f, Projector& p) { return object(parsed(f), p.object); },
-     // Arrays of numbers have no empty fields: there, NaN is any object.
+     // Arrays of numbers cannot leave a field empty, so NaN stands for any object there.
      [](double value, Projector& p) { return std::isnan(value) ? std::string{} : object(value, p.object); },
      [](const Projector& p) { return number_held(p.object.value_or(0), any_number); },
      [](const Projector& p) { return p.object ? fmt::format("{}", *p.object) : std::string{}; }},

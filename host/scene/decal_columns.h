@@ -12,8 +12,9 @@ namespace wrinkle::scene {
 /// What fields of a column hold: numbers; names, or other text; yes or no.
 enum class Field { number, name, truth };
 
-/// A column of a table of decals. `read` takes a field that is not empty, `take` a number, and each says what is wrong
-/// with it, or nothing; `wrong` says what is wrong with the value that a row holds; `write` gives the field.
+/// A column of a table of decals. `read` takes a field that is not empty, and `take` a number; `wrong` looks at the
+/// value that a row holds. All three return what is wrong with it, or an empty text. `write` returns the field of a
+/// row.
 struct DecalColumn {
     const char* name;
     const char* key;   ///< of TOML; the columns that share one are its elements, and follow one another

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostProblems = 20;
 
-/// How messages begin that are about a row; `rows` were begun until then.
+/// How messages about a row begin; it is the last of `rows` that were begun.
 std::string row_prefix(DecalReader::Form form, std::size_t rows) {
     if (form == DecalReader::Form::npy || form == DecalReader::Form::memory) return fmt::format("row {}: ", rows - 1);
     return form == DecalReader::Form::toml ? fmt::format("[[decal]] {}: ", rows) : std::string{};

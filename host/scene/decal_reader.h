@@ -20,26 +20,26 @@ public:
     DecalReader(const std::string& file, std::size_t textures, Form form)
         : problems_(file), textures_(textures), form_(form) {}
 
-    /// Of the row being read; `line` 0 where the form has none.
+    /// About the row being read; `line` is 0 where the form has no lines.
     void complain(std::uint32_t line, std::string text);
-    /// Of the file.
+    /// About the file as a whole.
     void complain_of_file(std::uint32_t line, std::string text);
 
-    /// Names of the columns in the order of the fields; a column is null where no such one is known.
+    /// Takes the names of the columns, in the order of the fields. In header() a column that is not known is null.
     void read_header(std::span<const std::string> names, std::uint32_t line);
     const std::vector<const DecalColumn*>& header() const { return header_; }
 
-    /// A row is begun, its fields are read, and it is ended.
+    /// For every row: begin_row(), one call for each field, end_row().
     void begin_row(std::uint32_t line);
     /// The fields that follow are in this line.
     void go_to(std::uint32_t line) { line_ = line; }
-    /// Empty text is the default.
+    /// An empty field leaves the default.
     void read_text(const DecalColumn& column, std::string_view field);
     void read_number(const DecalColumn& column, double value);
-    /// A field that is no text or number for this column.
+    /// Notes that a field has a type that the column cannot take.
     void refuse(const DecalColumn& column, const std::string& found, const std::string& wrong);
     void end_row() { check_together(rows_.back(), rows_.back().line); }
-    /// A row that is no file's: all of the above at once.
+    /// Checks a row that was made in code.
     void check(const Projector& row);
     /// Rows that another reader finished.
     void append(std::vector<Projector> rows);

@@ -47,7 +47,7 @@ void read_value(DecalReader& reader, const DecalColumn& column, const toml::node
     }
 }
 
-/// What a user of CSV may have meant by a key that there is none of.
+/// A hint for an unknown key that is the name of a column of CSV.
 std::string unknown_key(std::string_view key) {
     const auto column = std::ranges::find(decal_columns(), key, &DecalColumn::name);
     if (column == decal_columns().end()) {
@@ -111,12 +111,13 @@ struct Piece {
     bool is_all = false;
 };
 
-/// Whole tables each, to be parsed one by one: toml++ takes far longer over, and far more memory for, one large text.
+/// The text in pieces of whole tables, which are parsed one by one: for a large text at once, toml++ takes far more
+/// time and memory.
 std::vector<Piece> pieces_of(std::string_view text) {
     constexpr std::size_t kPiece = std::size_t{1} << 16;
     constexpr std::string_view kStart = "\n[[decal]]";
     std::vector<Piece> pieces;
-    // Only in a text of many lines may such a line be anything but the start of a table.
+    // Within a string of several lines, a line that looks like the start of a table may be none.
     const bool whole = text.find("\"\"\"") != text.npos || text.find("'''") != text.npos;
     std::uint32_t line = 1;
     do {
@@ -173,7 +174,7 @@ std::vector<Projector> load_decal_toml(const std::filesystem::path& file, std::s
         try {
             read_piece(alone, name, pieces[i]);
             sound[i] = alone.finish();
-        } catch (...) {  // it is read again below, to say what is wrong where: decals are counted from the first
+        } catch (...) {  // read again below: messages count the decals before, which this piece does not know
         }
     });
     for (std::size_t i = 0; i < pieces.size(); ++i)

@@ -13,6 +13,15 @@ const char* name_of(Content content) {
     return names[static_cast<int>(content)];
 }
 
+void read_wrap(Table& table, TextureUse& texture) {
+    table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
+}
+
+void read_encoding(Table& table, TextureUse& texture) {
+    table.choose("encoding", texture.encoding,
+                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
+}
+
 }  // namespace
 
 void read_place(Table& table, Layer& layer) {
@@ -71,12 +80,10 @@ void visit_texture(Table& table, TextureUse& texture) {
                   {"normal", Content::normal},
                   {"slope", Content::slope},
                   {"object_normal", Content::object_normal}});
-    table.choose("upscale", texture.upscale,
-                 {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}, {"taps", Upscale::taps}});
-    table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
+    read_any_upscale(table, texture);
+    read_wrap(table, texture);
     table.compiled_in("y", texture.y_down);
-    table.choose("encoding", texture.encoding,
-                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
+    read_encoding(table, texture);
     table.choose("slopes", texture.unit,
                  {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}, {"metre", SlopeUnit::metre}});
     table.compiled_in("layer", texture.layer);
@@ -90,9 +97,13 @@ void read_upscale(Table& table, TextureUse& texture) {
     table.choose("upscale", texture.upscale, {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}});
 }
 
+void read_any_upscale(Table& table, TextureUse& texture) {
+    table.choose("upscale", texture.upscale,
+                 {{"plain", Upscale::plain}, {"smooth", Upscale::smooth}, {"taps", Upscale::taps}});
+}
+
 void read_slope_encoding(Table& table, TextureUse& texture) {
-    table.choose("encoding", texture.encoding,
-                 {{"auto", Encoding::automatic}, {"signed", Encoding::sign}, {"unit", Encoding::unit}});
+    read_encoding(table, texture);
     table.choose("slopes", texture.unit, {{"texel", SlopeUnit::texel}, {"texture", SlopeUnit::texture}});
 }
 
@@ -121,7 +132,7 @@ void span_tiles(Table& table, const TextureUse& texture, UvMapping& mapping) {
 }
 
 void read_mapped(Table& table, TextureUse& texture, UvMapping& mapping) {
-    table.choose("wrap", texture.wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}});
+    read_wrap(table, texture);
     if (auto uv = table.table("uv", "uv of " + table.where())) read_uv(*uv, mapping);
     span_tiles(table, texture, mapping);
 }

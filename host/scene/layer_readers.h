@@ -7,7 +7,7 @@
 /// What the readers of the layer kinds share.
 namespace wrinkle::scene {
 
-/// What a reader goes on from: the bump that the layer holds, or a new one of this kind.
+/// The bump that a reader fills in: the one that the layer holds, or a new one of this kind.
 template <class Bump>
 Bump held(const Layer& layer) {
     const Bump* bump = std::get_if<Bump>(&layer.bump);
@@ -22,20 +22,23 @@ void read_weight(Table& table, Layer& layer);
 void read_weight_without_levels(Table& table, Layer& layer);
 /// project: for kinds that are gradients in space
 void read_project(Table& table, Layer& layer);
-/// layer, channels, zero: of a file's parts, which are wanted
+/// layer, channels, zero: which parts of a file are used
 void read_texture_choice(Table& table, TextureUse& texture);
-/// The value of texture: a file, or a table of one with its choice. Whether there is one.
+/// texture, as a file name or as a table of a file and its choice. Returns whether it is there.
 bool read_texture_name(Table& table, TextureUse& texture);
 /// texture
 void read_texture_file(Table& table, TextureUse& texture);
 /// The same, for kinds whose texture holds one content only.
 void read_texture_of(Table& table, TextureUse& texture, Content content);
-/// What a texture in memory holds, whether files of the kind can say so or not; all of it is compiled in.
+/// Checks all members of a texture of a scene in memory, also those for which files of this kind have no key. All of
+/// them are compiled in.
 void visit_texture(Table& table, TextureUse& texture);
 /// y
 void read_green(Table& table, TextureUse& texture);
 /// upscale
 void read_upscale(Table& table, TextureUse& texture);
+/// upscale, with "taps" among the choices
+void read_any_upscale(Table& table, TextureUse& texture);
 /// Complains of a texture of <UDIM> tiles, where there are no texture coordinates that tell them apart.
 void refuse_tiles(Table& table, const char* key, const TextureUse& texture);
 /// A texture of tiles becomes one image of all of them, so its coordinates shrink by as much as that is larger. A scene

@@ -9,7 +9,7 @@ namespace wrinkle {
 /// Directions of an object's axes in world space.
 std::array<Vec3, 3> object_axes(const Placement& placement);
 
-/// A direction in the object's space, as rows to the world: sign(det) cof(M) but for its length.
+/// Rows of a matrix that takes normals of the object to the world: the inverse transposed of the object's.
 std::array<Vec3, 3> normals_to_world(const Placement& placement);
 
 namespace scene {

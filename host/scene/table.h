@@ -48,7 +48,7 @@ constexpr Range not_negative{.low = 0};
 constexpr Range zero_to_one{.low = 0, .high = 1};
 
 double to_radians(double degrees);
-/// Whole degrees come back as such.
+/// Whole degrees stay whole: the rounding of the conversion is undone.
 double to_degrees(double radians);
 
 /// One TOML table that is being read. Each key asked for is a known key, so what is left over at finish() is a mistake,
@@ -56,8 +56,8 @@ double to_degrees(double radians);
 /// wrong goes to the document's problems. The read functions return whether `out` was set.
 ///
 /// A visiting table has no file: what `out` holds already stands where the file's value would, so a scene made in code
-/// is checked by the same rules, and what of it is compiled in goes to the document's structure. Of such a table no key
-/// is asked for by name: has() and its like say no.
+/// is checked by the same rules, and what of it is compiled in goes to the document's structure. Such a table has no
+/// keys: has() and its like return false.
 class Table {
 public:
     /// `where` names the table in messages: `[[layer]] "cobbles"`.
@@ -76,7 +76,7 @@ public:
     bool read(std::string_view key, std::array<double, N>& out, const Range& range = any_number) {
         return read_numbers(key, out.data(), N, range);
     }
-    /// Of an optional value it is compiled in whether it is there, and what it is as well if `more` says so.
+    /// An optional value. Whether it is there is compiled in; what it is only if `more` says so.
     template <class T, class... More>
     bool read(std::string_view key, std::optional<T>& out, const More&... more) {
         if (visits()) note(key, out ? "given" : "not given");

@@ -11,13 +11,13 @@
 namespace wrinkle::scene {
 namespace {
 
-/// Finds the first key of more parts than any scene has, a.b.c. toml++ makes a table of each part, and takes them apart
-/// again by recursion, which a key of a million parts ends with a stack overflow. Nested brackets it limits itself.
+/// Finds the first dotted key (a.b.c) of more parts than any scene has. toml++ makes nested tables of the parts and
+/// destroys them recursively: a key of a million parts overflows the stack. It limits nested brackets by itself.
 class LongKey {
 public:
     explicit LongKey(std::string_view text) : text_(text) {}
 
-    /// The line of it, counted from 0; nothing when there is none.
+    /// The key's line, counted from 0; nothing when there is no such key.
     std::optional<std::uint32_t> line() {
         int parts = 1;
         while (at_ < text_.size()) {
@@ -44,7 +44,7 @@ private:
         while (at_ < text_.size() && text_[at_] != c) next();
     }
 
-    /// Moves behind a text in quotes: one, or three, within which lines may end.
+    /// Skips a string in one or three quotes; one in three may have several lines.
     void skip_string(char quote) {
         const std::string three(3, quote);
         const bool long_text = text_.substr(at_).starts_with(three);

@@ -102,4 +102,4 @@ struct TexelData {
 /// for contents that cannot be stored in the way wanted, and for more than 8 GiB together.
 TexelData texel_data(std::span<const TextureSource> sources);
 
-}  // namespace gnu::visibility("default")]]wrinkle
+}  // namespace wrinkle

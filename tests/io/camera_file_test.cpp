@@ -4,111 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "io/header_camera.h"
-#include "tests/io/files.h"
+#include "tests/io/camera_frames.h"
 
 namespace wrinkle {
 namespace {
 
 using namespace test;
 
-constexpr Size size{96, 54};
-constexpr double aspect = 96.0 / 54.0;
-
-Camera true_camera() { return Camera::look_at({1.5, -7.5, 2.6}, {0, 0, 0.8}, {0, 0, 1}, 0.6, aspect); }
-
-/// Planar depth of a wavy surface at a pixel; the first columns are background.
-double depth_at(int x, int y) { return x < 5 ? 1e10 : 6 + std::sin(0.2 * x) + std::cos(0.3 * y); }
-
-enum class Space { world, camera };
-
-/// Writes a frame seen by true_camera(): positions, depth, and the attributes of `header`.
-void write_frame(const std::filesystem::path& file, const Metadata& header, std::vector<std::string> names,
-                 bool ray = false, Space space = Space::world) {
-    const auto camera = true_camera();
-    const auto rays = *pinhole_rays(camera, size);
-    auto spec = make_spec(96, 54, std::move(names));
-    for (const auto& name : header.names()) {
-        const auto matrix = *header.matrix(name);
-        float values[16];
-        for (std::size_t i = 0; i < 16; ++i) values[i] = static_cast<float>(matrix[i / 4][i % 4]);
-        spec.attribute(name, OIIO::TypeMatrix44, values);
-    }
-    const auto pixel = [&](int c, int x, int y) -> float {
-        const double z = depth_at(x, y);
-        Vec3 d{}, p{};
-        for (std::size_t i = 0; i < 3; ++i) d[i] = rays.d0[i] + (x + 0.5) * rays.dx[i] + (y + 0.5) * rays.dy[i];
-        if (c >= 3) return static_cast<float>(ray ? z * std::hypot(d[0], d[1], d[2]) : z);
-        if (z > 1e9) return 0;
-        for (std::size_t i = 0; i < 3; ++i) p[i] = rays.eye[i] + z * d[i];
-        if (space == Space::world) return static_cast<float>(p[static_cast<std::size_t>(c)]);
-        const auto& row = camera.view[static_cast<std::size_t>(c)];
-        const double view = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
-        return static_cast<float>(c == 2 ? -view : view);  // left-handed, z forward
-    };
-    write_image(file, {{spec, pixel}});
-}
-
-const std::vector<std::string> plain_names{"position.x", "position.y", "position.z", "depth"};
-const std::vector<std::string> pbrt_names{"P.X", "P.Y", "P.Z", "w", "Ns.X"};
-
-Mat4 transposed(const Mat4& m) {
-    Mat4 t{};
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j) t[i][j] = m[j][i];
-    return t;
-}
-
-/// The matrix from world space to the EXR standard's camera space, which is left-handed. Acts on column vectors.
-Mat4 world_to_camera() {
-    return multiply({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}}}, true_camera().view);
-}
-
-/// The matrix from world space to normalised device coordinates with (0, 0) at the top left. Acts on column vectors.
-Mat4 world_to_ndc() {
-    const Mat4 window{{{0.5, 0, 0, 0.5}, {0, -0.5, 0, 0.5}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-    return multiply(window, multiply(true_camera().proj, true_camera().view));
-}
-
-/// Expects that `camera` has the eye and the rays of true_camera().
-void expect_same(const Camera& camera, double tolerance = 1e-4) {
-    const auto found = pinhole_rays(camera, size), expected = pinhole_rays(true_camera(), size);
-    ASSERT_TRUE(found);
-    for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_NEAR(found->eye[i], expected->eye[i], tolerance);
-        EXPECT_NEAR(found->d0[i], expected->d0[i], tolerance);
-        EXPECT_NEAR(found->dx[i], expected->dx[i], tolerance);
-        EXPECT_NEAR(found->dy[i], expected->dy[i], tolerance);
-    }
-}
-
 CameraSource from_header() {
     CameraSource source;
     source.exr = true;
     return source;
-}
-
-TEST(ClipCamera, ComesBackFromItsProduct) {
-    for (const double skew : {0.0, 0.1}) {
-        auto camera = true_camera();
-        camera.proj[0][2] = 0.3, camera.proj[1][2] = -0.2, camera.proj[1][0] = skew;
-        const auto found = io::camera_of_clip(multiply(camera.proj, camera.view));
-        ASSERT_TRUE(found);
-        for (std::size_t i = 0; i < 4; ++i)
-            for (std::size_t j = 0; j < 4; ++j) {
-                EXPECT_NEAR(found->view[i][j], camera.view[i][j], 1e-12);
-                if (i != 2) { EXPECT_NEAR(found->proj[i][j], camera.proj[i][j], 1e-12); }
-            }
-    }
-    Camera parallel = true_camera();
-    parallel.proj = {{{0.2, 0, 0, 0.1}, {0, 0.3, 0, -0.1}, {0, 0, -0.1, 0}, {0, 0, 0, 1}}};
-    const auto found = io::camera_of_clip(multiply(parallel.proj, parallel.view));
-    ASSERT_TRUE(found);
-    const Vec3 point{0.3, 0.2, 0.9};
-    EXPECT_NEAR((*project(*found, size, point))[0], (*project(parallel, size, point))[0], 1e-9);
-    EXPECT_NEAR((*project(*found, size, point))[1], (*project(parallel, size, point))[1], 1e-9);
-    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(found->view[2][j], parallel.view[2][j], 1e-12);
-    EXPECT_FALSE(io::camera_of_clip(Mat4{}));
 }
 
 TEST(CameraFile, HeaderOfTheStandard) {
@@ -254,54 +160,6 @@ TEST(CameraFile, FieldsOfViewAndLensesAreTheSame) {
     const auto shifted = read_camera(source, reader);  // Blender's: shares of the longer side
     EXPECT_NEAR((*project(shifted, size, {0, 0, 0.8}))[0], 48 - 0.25 * 96, 1e-9);
     EXPECT_NEAR((*project(shifted, size, {0, 0, 0.8}))[1], 27 - 0.1 * 96, 1e-9);
-}
-
-std::string json_matrix(const Mat4& m) {
-    std::string text = "[";
-    for (std::size_t i = 0; i < 4; ++i)
-        text += fmt::format("{}[{}, {}, {}, {}]", i == 0 ? "" : ", ", m[i][0], m[i][1], m[i][2], m[i][3]);
-    return text + "]";
-}
-
-TEST(CameraFile, Json) {
-    TempFolder folder;
-    write_frame(folder / "f.0012.exr", {}, plain_names);
-    const GBufferReader reader(folder / "f.0012.exr");
-    CameraSource source;
-    source.file = folder / "f.####.json";
-    const auto file = folder / "f.0012.json";
-    const auto view = json_matrix(true_camera().view), proj = json_matrix(true_camera().proj);
-    const auto complaint = [&](const std::string& text) {
-        write_text(file, text);
-        return error_of([&] { read_camera(source, reader, 12); });
-    };
-    expect_mentions(error_of([&] { read_camera(source, reader, 12); }), {"f.0012.json: there is no such file"});
-    expect_mentions(complaint("{\"view\": [\n1,"), {"malformed", "line 2"});
-    expect_mentions(complaint("[1, 2]"), {"not a camera file"});
-    expect_mentions(complaint("{\"view\": " + view + "}"), {"\"proj\" is missing"});
-    expect_mentions(complaint(R"({"view": [[1,2],[3,4]], "proj": 3})"), {"\"view\" is 2 rows", "4 rows of 4"});
-    expect_mentions(complaint("{\"view\": " + view + R"(, "proj": [[1,0,0,0],[0,1,0,0],[0,0,"x",0],[0,0,1,0]]})"),
-                    {"\"proj\" is no number in row 2, column 2"});
-    expect_mentions(complaint("{\"view\": " + view + ",\n\"proj\": [[1e999,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,0]]}"),
-                    {"f.0012.json", "line 2", "out of range", "1e999"});
-    expect_mentions(
-        complaint("{\"view\": " + json_matrix(transposed(true_camera().view)) + ", \"proj\": " + proj + "}"),
-        {"view is transposed"});
-    expect_mentions(complaint("{\"view\": [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]], \"proj\": " + proj + "}"),
-                    {"view must be rigid"});
-    expect_mentions(complaint("{\"view\": " + view + ", \"proj\": [[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,-1,0]]}"),
-                    {"proj is singular"});
-    expect_mentions(complaint(fmt::format(R"({{"width": 96, "height": 96, "view": {}, "proj": {}}})", view, proj)),
-                    {"the camera is for 96x96 and the frame is 96x54"});
-    write_text(file, fmt::format(R"({{"width": 192, "height": 108, "view": {}, "proj": {}}})", view, proj));
-    expect_same(read_camera(source, reader, 12), 1e-12);
-    Mat4 rounded = true_camera().view;
-    rounded[3] = {1e-7, 0, -1e-7, 1.0000001};
-    write_text(file, "{\"view\": " + json_matrix(rounded) + ", \"proj\": " + proj + "}");
-    expect_same(read_camera(source, reader, 12), 1e-12);
-    rounded[3] = {0, 0, 0, 1.01};
-    expect_mentions(complaint("{\"view\": " + json_matrix(rounded) + ", \"proj\": " + proj + "}"),
-                    {"view must have the last row [0, 0, 0, 1]; found [0, 0, 0, 1.01]"});
 }
 
 }  // namespace
