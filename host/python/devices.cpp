@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bindings.h"
+#include "python/bindings.h"
 #include "wrinkle/device.h"
 #include "wrinkle/error.h"
 

@@ -7,8 +7,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
 #include "io/cryptomatte.h"
+#include "python/bindings.h"
 #include "run/open_frame.h"
 #include "wrinkle/camera.h"
 #include "wrinkle/error.h"

@@ -6,7 +6,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
+#include "python/bindings.h"
 #include "wrinkle/error.h"
 
 namespace nb = nanobind;

@@ -1,4 +1,4 @@
-#include "bindings.h"
+#include "python/bindings.h"
 #include "wrinkle/error.h"
 
 NB_MODULE(_wrinkle, module) {

@@ -3,8 +3,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
-#include "progress.h"
+#include "python/bindings.h"
+#include "python/progress.h"
 #include "run/pass_impl.h"
 
 namespace nb = nanobind;

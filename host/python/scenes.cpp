@@ -6,9 +6,9 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
 #include "layers/kinds.h"
-#include "progress.h"
+#include "python/bindings.h"
+#include "python/progress.h"
 #include "scene/readers.h"
 #include "tools/render.h"
 #include "wrinkle/scene.h"

@@ -76,7 +76,7 @@ figure.savefig(out / "pareto.png", dpi=120, bbox_inches="tight")
 assert error[-1] < error[0] / 2
 
 # %% A frame relit: the picture times lit(new) / lit(old)
-scene = wrinkle.Scene.load(scenes / "noise.toml")
+scene = wrinkle.Scene.load(scenes / "kernel.toml")
 shot = wrinkle.GBuffer.of(scene)
 before = np.dstack([shot.plane(f"beauty.{c}") for c in "rgb"])
 after = wrinkle.evaluate(scene, shot)["lit"]
