@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "device/choose_device.h"
+#include "device/drivers.h"
 #include "wrinkle/device.h"
 
 namespace wrinkle::cli {
@@ -34,6 +37,12 @@ void devices(bool json) {
             d.name, d.type, d.platform, d.driver, d.compute_units, static_cast<double>(d.memory) / (1u << 30), d.lanes,
             d.lanes == 1 ? "" : "s", d.fp64 ? "yes" : "no");
     }
+    const char* wanted = std::getenv("WRINKLE_DEVICE");
+    fmt::print("without --device: {} ({})\n", choose_device(list, wanted != nullptr ? wanted : ""),
+               wanted != nullptr ? "WRINKLE_DEVICE"
+                                 : "a GPU, else the CPU with the most compute units times lanes; WRINKLE_DEVICE sets "
+                                   "another");
+    for (const std::string& driver : broken_drivers()) fmt::print("not loaded: {}\n", driver);
 }
 
 }  // namespace

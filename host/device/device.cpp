@@ -1,10 +1,13 @@
 #include "wrinkle/device.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cstdlib>
 #include <mutex>
 
-#include "base/names.h"
+#include "device/choose_device.h"
+#include "device/drivers.h"
 #include "device/found_device.h"
 #include "device/guarded.h"
 
@@ -35,8 +38,10 @@ std::vector<FoundDevice> all_devices() {
     std::vector<FoundDevice> found = describe_devices(devices);
     if (found.empty())
         throw Error(
-            "no OpenCL device found. Install one: on Debian or Ubuntu \"apt-get install pocl-opencl-icd\" runs on the "
-            "CPU; GPUs bring an OpenCL ICD with their driver");
+            fmt::format("no OpenCL device found. Install one: on Debian or Ubuntu \"apt-get install pocl-opencl-icd\" "
+                        "runs on the CPU; GPUs bring an OpenCL ICD with their driver{}{}",
+                        broken_drivers().empty() ? "" : ". Installed, but not to be loaded:\n  ",
+                        fmt::join(broken_drivers(), "\n  ")));
     return found;
 }
 
@@ -55,29 +60,14 @@ std::vector<DeviceInfo> list_devices() {
 Device Device::open(const std::string& wanted) {
     return guarded("open an OpenCL device", [&] {
         const std::vector<FoundDevice> devices = all_devices();
-        const std::string name = lower(wanted);
-        const bool number = name.find_first_not_of("0123456789") == std::string::npos;
-        std::string listing;
-        const FoundDevice* chosen = nullptr;
-        for (std::size_t i = 0; i < devices.size() && chosen == nullptr; ++i) {
-            const DeviceInfo& info = devices[i].info;
-            listing += fmt::format("\n  {}: {} ({}, {})", i, info.name, info.type, info.platform);
-            const bool match =
-                wanted.empty()
-                    ? info.type == "cpu"
-                    : name == fmt::format("{}", i) || name == info.type ||
-                          (!number && name.size() > 1 &&
-                           (contains_ignoring_case(info.name, name) || contains_ignoring_case(info.platform, name)));
-            if (match) chosen = &devices[i];
-        }
-        if (chosen == nullptr && wanted.empty()) chosen = &devices.front();
-        if (chosen == nullptr)
-            throw Error(
-                fmt::format("no OpenCL device \"{}\"; give a number, a type (cpu, gpu) or a part of a name of:{}",
-                            wanted, listing));
-        const cl::Context context(chosen->device);
-        const cl::CommandQueue queue(context, chosen->device, CL_QUEUE_PROFILING_ENABLE);
-        return Device{chosen->device, context, queue, chosen->info};
+        std::vector<DeviceInfo> infos;
+        for (const FoundDevice& found : devices) infos.push_back(found.info);
+        const char* standard = std::getenv("WRINKLE_DEVICE");
+        const FoundDevice& chosen =
+            devices[choose_device(infos, wanted.empty() && standard != nullptr ? standard : wanted)];
+        const cl::Context context(chosen.device);
+        const cl::CommandQueue queue(context, chosen.device, CL_QUEUE_PROFILING_ENABLE);
+        return Device{chosen.device, context, queue, chosen.info};
     });
 }
 

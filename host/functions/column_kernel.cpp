@@ -1,4 +1,5 @@
 #include "functions/column_kernel.h"
+#include "device/work_group.h"
 
 #include <fmt/format.h>
 
@@ -73,7 +74,8 @@ void ColumnProgram<T>::upload(const std::vector<std::vector<T>>& columns, std::s
 template <class T>
 void ColumnProgram<T>::enqueue() {
     cl::Event done;
-    device_.queue.enqueueNDRangeKernel(kernel_, {}, stride_ / lanes_, kGroup, &last_, &done);
+    device_.queue.enqueueNDRangeKernel(kernel_, {}, stride_ / lanes_, work_group(device_, kernel_, kGroup), &last_,
+                                       &done);
     last_ = {done};
 }
 

@@ -37,8 +37,9 @@ void bind_devices(nb::module_& module) {
     module.def("devices", &list_devices, "Every OpenCL device of this machine. Raises Error when there is none.");
     nb::class_<Device>(module, "Device", "An OpenCL device to work on: copies share the context and the queue.")
         .def_static("open", &Device::open, nb::arg("wanted") = "",
-                    "The device whose number in devices(), type or part of a name is `wanted`; the first CPU when "
-                    "empty. Raises Error listing the devices when nothing matches.")
+                    "The device whose number in devices() or type is `wanted`, or a part of its name, platform or "
+                    "version; when empty WRINKLE_DEVICE, else a GPU, else the widest CPU. Raises Error listing the "
+                    "devices when nothing matches.")
         .def_static(
             "adopt",
             [](std::uintptr_t context, std::uintptr_t queue) {

@@ -1,4 +1,5 @@
 #include "resources/decal_bins.h"
+#include "device/work_group.h"
 
 #include <algorithm>
 #include <numeric>
@@ -27,6 +28,7 @@ cl::Buffer table(const Device& device, const std::vector<T>& values) {
 void launch(const Device& device, const cl::Kernel& kernel, std::size_t items, std::size_t group,
             std::vector<cl::Event>& wait) {
     cl::Event done;
+    group = work_group(device, kernel, group);
     device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + group - 1) / group * group),
                                       cl::NDRange(group), &wait, &done);
     wait = {done};

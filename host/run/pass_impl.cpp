@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "device/work_group.h"
 #include "layers/kinds.h"
 #include "resources/frame_constants.h"
 #include "scene/check_scene.h"
@@ -203,7 +204,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         kernel.setArg(i++, static_cast<cl_uint>(items));
         if (plan.blocks) kernel.setArg(i++, blocks ? static_cast<cl_uint>(rows.count) : cl_uint{0});
         std::vector<cl::Event> done(std::max<std::size_t>(some.size(), 1));
-        const std::size_t group = group_size(plan.kernels[k], options.lanes);
+        const std::size_t group = work_group(device, kernel, group_size(plan.kernels[k], options.lanes));
         if (some.empty())
             device.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups_of(items, group) * group),
                                               cl::NDRange(group), &after, done.data());

@@ -44,7 +44,7 @@ std::vector<DeviceInfo> list_devices();
 /// a queue each, or one that is out of order.
 ///
 ///     for (const wrinkle::DeviceInfo& info : wrinkle::list_devices()) std::cout << info.name << '\n';
-///     const auto device = wrinkle::Device::open();                             // the first CPU
+///     const auto device = wrinkle::Device::open();                             // a GPU, else a CPU
 ///     const auto same = wrinkle::Device::adopt(device.context, device.queue);  // or any context and queue of yours
 struct Device {
     cl::Device device;
@@ -52,8 +52,9 @@ struct Device {
     cl::CommandQueue queue;
     DeviceInfo info;
 
-    /// The device whose number in list_devices(), type or part of a name is `wanted`; the first CPU when empty, else
-    /// the first device. Throws Error listing the devices when nothing matches.
+    /// The device whose number in list_devices() or type is `wanted`, or a part of its name, platform or version
+    /// ("pocl"). When empty, WRINKLE_DEVICE says so; without that it is a GPU, else the CPU with the most vector lanes
+    /// over all its compute units. Throws Error listing the devices when nothing matches.
     static Device open(const std::string& wanted = {});
 
     /// Works in the caller's context and on the caller's queue: in order or out of order, with or without profiling,

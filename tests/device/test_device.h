@@ -9,7 +9,7 @@
 
 namespace wrinkle::test {
 
-/// WRINKLE_TEST_DEVICE, in any form that Device::open takes; the first CPU where that is not set.
+/// WRINKLE_TEST_DEVICE, in any form that Device::open takes; what it takes by itself where that is not set.
 inline std::string test_device_name() {
     const char* name = std::getenv("WRINKLE_TEST_DEVICE");
     return name != nullptr ? name : "";

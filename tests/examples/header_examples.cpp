@@ -51,7 +51,7 @@ TEST(HeaderExample, GBuffer) {
 
 TEST(HeaderExample, Device) {
     for (const wrinkle::DeviceInfo& info : wrinkle::list_devices()) std::cout << info.name << '\n';
-    const auto device = wrinkle::Device::open();                             // the first CPU
+    const auto device = wrinkle::Device::open();                             // a GPU, else a CPU
     const auto same = wrinkle::Device::adopt(device.context, device.queue);  // or any context and queue of yours
     EXPECT_EQ(same.info.name, device.info.name);
 }

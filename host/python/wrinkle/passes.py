@@ -31,7 +31,7 @@ class Pass:
 
     For one thread at a time; several threads may have a pass each.
 
-    device   of wrinkle.Device, or what `wrinkle --device` takes; the first CPU by default
+    device   of wrinkle.Device, or what `wrinkle --device` takes; a GPU, else a CPU, by default
     lanes    pixels a work-item: 1, 4, 8 or 16; 0: what the device is best at
     fp64     evaluate in double; results are float64
     """
