@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/atomic_file.h"
 #include "cli/commands.h"
@@ -10,6 +12,8 @@
 namespace wrinkle::cli {
 
 namespace {
+
+constexpr std::uint32_t kBandPixels = 1u << 18, kBlockRows = 16;  // whole ZIP blocks
 
 struct BakeArguments {
     std::string kind;
@@ -34,12 +38,19 @@ void bake_a_frame(const BakeArguments& arguments) {
     const Size size{arguments.width, arguments.height};
     const Camera camera =
         Camera::look_at({3, -13, 6}, {0, 0, 0}, {0, 0, 1}, 0.75, static_cast<double>(size.width) / size.height);
-    const auto planes = bake_golden_frame(Device::open(arguments.device), camera, size);
-    std::vector<std::string> names;
-    std::vector<const float*> pixels;
-    for (const auto& [name, values] : planes) names.push_back(name), pixels.push_back(values.data());
-    ImageWriter image(arguments.output, size, names);
-    image.write_rows(0, size.height, pixels);
+    const Device device = Device::open(arguments.device);
+    const std::uint32_t band = std::max<std::uint32_t>(kBandPixels / size.width / kBlockRows, 1) * kBlockRows;
+    std::optional<ImageWriter> writer;
+    for (std::uint32_t row = 0; row < size.height; row += band) {
+        const std::uint32_t end = std::min(row + band, size.height);
+        const auto planes = bake_golden_rows(device, camera, size, row, end);
+        std::vector<std::string> names;
+        std::vector<const float*> pixels;
+        for (const auto& [name, values] : planes) names.push_back(name), pixels.push_back(values.data());
+        if (!writer) writer.emplace(arguments.output, size, names);
+        writer->write_rows(row, end, pixels);
+    }
+    ImageWriter& image = *writer;
     image.complete();
     std::filesystem::path camera_file = arguments.output;
     camera_file.replace_extension(".camera.json");

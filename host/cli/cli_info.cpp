@@ -50,6 +50,7 @@ std::vector<std::string> remarks(const GBufferInfo& info) {
                 "object: {:.2g}% of the pixels hold no whole number but the average of several, and belong to none",
                 100.0 * static_cast<double>(role.mixed) / static_cast<double>(info.measured)));
     if (const std::string problem = uv_problem(info); !problem.empty()) lines.push_back(problem);
+    if (info.camera) lines.insert(lines.end(), info.camera->doubts.begin(), info.camera->doubts.end());
     return lines;
 }
 

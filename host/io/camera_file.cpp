@@ -12,10 +12,17 @@
 #include "io/frame_path.h"
 #include "io/header_camera.h"
 #include "io/solve_camera.h"
+#include "io/surface_check.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 namespace {
+
+FrameCamera seen_by(const Camera& camera, std::string origin) {
+    FrameCamera found;
+    found.camera = camera, found.origin = std::move(origin);
+    return found;
+}
 
 std::string why_no_camera(const Metadata& header) {
     const auto is_bad = [](double value) { return !std::isfinite(value); };
@@ -34,7 +41,7 @@ FrameCamera camera_of_header(const GBufferReader& reader, std::span<const Positi
     const auto& header = reader.metadata();
     if (auto best = io::best_header_camera(header, reader.window().display, reader.pixel_aspect(),
                                            reader.roles().writer, samples)) {
-        return {best->camera, "header: " + best->reading, {}, {}, {}};
+        return seen_by(best->camera, "header: " + best->reading);
     }
     throw Error(
         fmt::format("{}: the header has no camera: {}; give [camera] file, from = \"positions\", view and proj, or "
@@ -49,11 +56,8 @@ FrameCamera camera_of_positions(const GBufferReader& reader, std::span<const Pos
     if (!reader.has_role("position"))
         fail("the frame has no position pass; channels found: " + io::describe_channels(reader.channels()));
     try {
-        return {io::solve_camera(samples, reader.window().display, reader.pixel_aspect()),
-                "solved from the positions",
-                {},
-                {},
-                {}};
+        return seen_by(io::solve_camera(samples, reader.window().display, reader.pixel_aspect()),
+                       "solved from the positions");
     } catch (const Error& error) { fail(error.what()); }
     return {};
 }
@@ -72,12 +76,12 @@ std::optional<std::filesystem::path> camera_beside(const std::filesystem::path& 
 FrameCamera camera_found(const GBufferReader& reader, double max_residual, std::span<const PositionSample> samples) {
     const Size size = reader.window().display;
     if (const auto beside = camera_beside(reader.path()))
-        return {io::read_camera_json(*beside, size), beside->string(), {}, {}, {}};
+        return seen_by(io::read_camera_json(*beside, size), beside->string());
     std::optional<io::HeaderCamera> best =
         io::best_header_camera(reader.metadata(), size, reader.pixel_aspect(), reader.roles().writer, samples);
     const bool fits =
         best && (samples.empty() || reprojection_residual(best->camera, size, samples).median <= max_residual);
-    if (fits || (best && !reader.has_role("position"))) return {best->camera, "header: " + best->reading, {}, {}, {}};
+    if (fits || (best && !reader.has_role("position"))) return seen_by(best->camera, "header: " + best->reading);
     if (reader.has_role("position")) return camera_of_positions(reader, samples);
     throw Error(fmt::format(
         "{}: no camera: there is no {}.camera.json, the header has none ({}), and without a position pass none can be "
@@ -90,19 +94,27 @@ FrameCamera camera_of(const CameraSource& source, const GBufferReader& reader, i
     const Size size = reader.window().display;
     if (!source.file.empty()) {
         const auto file = frame_path(source.file, frame);
-        return {io::read_camera_json(file, size), file.string(), {}, {}, {}};
+        return seen_by(io::read_camera_json(file, size), file.string());
     }
     if (source.exr) return camera_of_header(reader, samples);
     if (source.positions) return camera_of_positions(reader, samples);
     if (source.inline_camera)
-        return {io::checked_camera(*source.inline_camera, "[camera]"), "view and proj of the scene", {}, {}, {}};
+        return seen_by(io::checked_camera(*source.inline_camera, "[camera]"), "view and proj of the scene");
     if (source.look_at)
-        return {io::camera_looking(*source.look_at, size, reader.pixel_aspect()),
-                "eye and target of the scene",
-                {},
-                {},
-                {}};
+        return seen_by(io::camera_looking(*source.look_at, size, reader.pixel_aspect()), "eye and target of the scene");
     return camera_found(reader, source.max_residual, samples);
+}
+
+void check_depth(const GBufferReader& reader, std::span<const PositionSample> samples, FrameCamera& result) {
+    constexpr double bound = 0.02;  // filters and half floats stay below a tenth of it
+    const double off = depth_misfit(result.camera, samples);
+    if (off <= bound) return;
+    result.depth_fits = false;
+    result.doubts.push_back(
+        fmt::format("depth ({}) does not fit the positions: it is off by {:.0f}% (median), taken as planar depth or as "
+                    "distance. Positions are used in its place, unless [gbuffer] geometry = \"depth\"; is it "
+                    "normalised, negative, or in another unit?",
+                    reader.roles().channel_of.find("depth")->second, 100 * off));
 }
 
 }  // namespace
@@ -111,13 +123,21 @@ FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& r
     const auto samples = sample_positions(reader);
     auto result = camera_of(source, reader, frame, samples);
     const Size display = reader.window().display;
+    bool fits = true;
     if (!samples.empty()) {
         result.residual = reprojection_residual(result.camera, display, samples);
         result.depth = measure_depth_kind(result.camera, samples);
-        if (result.residual->median > source.max_residual)
+        fits = result.residual->median <= source.max_residual;
+        if (fits)
+            check_depth(reader, samples, result);
+        else
             result.hint = io::explain_misfit(source, result.camera, display, reader.pixel_aspect(), samples);
     }
     result.camera = io::windowed(result.camera, reader.window(), reader.size());
+    if (!fits) return result;
+    if (auto misfit = io::depth_misfit(reader); !misfit.empty()) result.doubts.push_back(std::move(misfit));
+    if (auto misfit = io::normals_misfit(reader, result.camera); !misfit.empty())
+        result.doubts.push_back(std::move(misfit));
     return result;
 }
 

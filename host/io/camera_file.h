@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/gbuffer_reader.h"
 #include "io/residual.h"
@@ -17,6 +18,8 @@ struct FrameCamera {
     std::optional<Residual> residual;  ///< nothing without positions to compare with
     std::optional<DepthKind> depth;    ///< what the depth plane holds, where position and depth both exist
     std::string hint;                  ///< what seems to be wrong where the residual is large
+    bool depth_fits = true;            ///< false: depth is neither planar depth nor distance of these positions
+    std::vector<std::string> doubts;   ///< what of the frame does not fit together, in sentences
 };
 
 /// Reads the camera of frame number `frame` from wherever `source` says, as one for all of the frame, overscan

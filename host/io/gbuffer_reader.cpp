@@ -83,11 +83,17 @@ struct GBufferReader::Impl {
     }
 
     void check_precision(std::string_view plane, const io::ChannelPlace& place) const {
-        if (!place.half || !plane.starts_with("crypto.id")) return;
-        throw Error(
-            fmt::format("{}: cryptomatte channel \"{}\" is 16-bit: its ids are lost; render cryptomattes as "
-                        "32-bit float",
-                        path.string(), place.name));
+        if (!plane.starts_with("crypto.id")) return;
+        if (place.half)
+            throw Error(
+                fmt::format("{}: cryptomatte channel \"{}\" is 16-bit: its ids are lost; render cryptomattes as "
+                            "32-bit float",
+                            path.string(), place.name));
+        if (!place.lossy.empty())
+            throw Error(
+                fmt::format("{}: cryptomatte channel \"{}\" is compressed by {}, which keeps some of its digits only: "
+                            "its ids are lost; write the file with ZIP, ZIPS, RLE or PIZ",
+                            path.string(), place.name, place.lossy));
     }
 
     bool sample_packed_normals(NormalKind kind) const;

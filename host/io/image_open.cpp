@@ -66,6 +66,20 @@ void check_dds(const InputFile& file) {
                                 file.name(), file.size(), 128 + bytes));
 }
 
+/// Throws Error for a DPX file that is shorter than it says. OpenImageIO reads what is missing as zeros.
+void check_dpx(const InputFile& file) {
+    constexpr std::size_t size_at = 16;
+    std::array<unsigned char, size_at + 4> header{};
+    if (file.read_at(0, header.data(), header.size()) < header.size()) return;
+    const bool big_endian = header[0] == 'S';
+    std::uint32_t said = 0;
+    for (std::size_t i = 0; i < 4; ++i) said = said << 8 | header[size_at + (big_endian ? i : 3 - i)];
+    const bool is_set = said != UINT32_MAX;
+    if (is_set && file.size() < said)
+        throw Error(fmt::format("{}: the DPX is truncated: {} bytes of {}; was it still being written?", file.name(),
+                                file.size(), said));
+}
+
 }  // namespace
 
 OpenImage::OpenImage(const std::filesystem::path& file, const OIIO::ImageSpec& options)
@@ -87,6 +101,7 @@ OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpe
         proxy_ = std::make_unique<InputProxy>(file_);
     }
     if (format == "dds") check_dds(*file_);
+    if (format == "dpx") check_dpx(*file_);
     OIIO::geterror();  // forgets messages of earlier calls
     input_ = OIIO::ImageInput::create(std::string(format));
     OIIO::ImageSpec spec, with_proxy = options;

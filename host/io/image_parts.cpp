@@ -63,6 +63,12 @@ void add_attributes(OIIO::ParamValueList& list, const OIIO::ParamValueList& foun
     }
 }
 
+/// The name of a compression that keeps only some digits of 32-bit floats.
+std::string lossy_compression(const OIIO::ImageSpec& spec) {
+    const std::string name{spec.get_string_attribute("compression")};
+    return name == "pxr24" || name.starts_with("dwa") ? name.substr(0, 5) : "";
+}
+
 }  // namespace
 
 ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file, const FrameExtent& extent) {
@@ -105,8 +111,8 @@ ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file
             name = full_name(name, layer, result.channels.empty() || result.channels.front().part == part);
             if (taken.contains(name)) name = fmt::format("{}.{}", part_name.empty() ? "part" : part_name, name);
             if (!taken.insert(name).second) continue;
-            result.channels.push_back(
-                {name, stored_name, part, i, format == OIIO::TypeUInt32, format == OIIO::TypeHalf});
+            result.channels.push_back({name, stored_name, part, i, format == OIIO::TypeUInt32, format == OIIO::TypeHalf,
+                                       lossy_compression(spec)});
         }
         add_attributes(result.metadata.data().list, spec.extra_attribs);
     }

@@ -21,6 +21,7 @@ struct ChannelPlace {
     int part = 0, index = 0;
     bool whole_numbers = false;  ///< EXR UINT: read as the number itself, not as a share of 2^32
     bool half = false;
+    std::string lossy{};  ///< the compression, where floats come back changed
 };
 
 /// One part of the file. Its data window may be smaller than the frame.

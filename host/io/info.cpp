@@ -107,6 +107,7 @@ GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraS
     info.views = reader.views();
     info.view = reader.view();
     info.packed_normals = reader.packed_normals();
+    info.uv_digits = io::uv_digits(reader);
     info.objects = reader.object_storage();
     info.stats = measure(reader, info.measured);
     info.cryptomatte_names = reader.cryptomatte().names();

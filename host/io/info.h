@@ -7,6 +7,7 @@
 
 #include "io/camera_file.h"
 #include "io/gbuffer_roles.h"
+#include "io/uv_digits.h"
 #include "wrinkle/camera.h"
 #include "wrinkle/scene.h"
 
@@ -32,6 +33,7 @@ struct GBufferInfo {
     std::vector<std::string> views;
     std::string view;  ///< the one that is read
     bool packed_normals = false;
+    io::UvDigits uv_digits = io::UvDigits::enough;
     io::ObjectStorage objects = io::ObjectStorage::single;
     std::uint64_t measured =
         0;  ///< pixels whose values are in `stats`: all, or those of rows spread over a large frame

@@ -25,10 +25,27 @@ bool is_surface(const PositionSample& sample) {
     return p != Vec3{0, 0, 0};
 }
 
+/// Medians of the relative errors of depths, taken as planar ones and as distances. Nothing without depths.
+std::optional<std::pair<double, double>> depth_errors(const Camera& camera, std::span<const PositionSample> samples) {
+    std::vector<double> planar, ray;
+    for (const auto& [x, y, p, depth] : samples) {
+        if (std::isnan(depth)) continue;
+        Vec3 view{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& row = camera.view[i];
+            view[i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        }
+        planar.push_back(std::abs(-view[2] / depth - 1));
+        ray.push_back(std::abs(std::hypot(view[0], view[1], view[2]) / depth - 1));
+    }
+    if (planar.empty()) return std::nullopt;
+    return std::pair{quantile(planar, 0.5), quantile(ray, 0.5)};
+}
+
 }  // namespace
 
 std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::uint32_t rows) {
-    std::vector<PositionSample> samples;
+    std::vector<PositionSample> samples, by_normal_alone;
     if (!reader.has_role("position")) return samples;
     const auto [width, height] = reader.size();
     const bool with_depth = reader.has_role("depth"), with_normal = reader.has_role("normal");
@@ -58,10 +75,14 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
             if (with_depth && std::isnan(sample.depth)) continue;
             const auto normal_length = [&] { return std::hypot(values[3][pixel], values[4][pixel], values[5][pixel]); };
             if (with_normal && !(normal_length() > 0)) continue;  // background, which may have any position
-            if (is_surface(sample)) samples.push_back(sample);
+            if (is_surface(sample))
+                samples.push_back(sample);
+            else if (with_normal &&
+                     is_surface({sample.x, sample.y, sample.position, std::numeric_limits<double>::quiet_NaN()}))
+                by_normal_alone.push_back(sample);
         }
     }
-    return samples;
+    return samples.empty() ? by_normal_alone : samples;
 }
 
 Residual reprojection_residual(const Camera& camera, Size size, std::span<const PositionSample> samples) {
@@ -78,22 +99,17 @@ Residual reprojection_residual(const Camera& camera, Size size, std::span<const 
 std::optional<DepthKind> measure_depth_kind(const Camera& camera, std::span<const PositionSample> samples) {
     constexpr double fits = 1e-3;  // largest relative error; half floats and filtering stay below it
     constexpr double clearly = 4;  // so many times better than the other kind it must fit
-    std::vector<double> planar, ray;
-    for (const auto& [x, y, p, depth] : samples) {
-        if (std::isnan(depth)) continue;
-        Vec3 view{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto& row = camera.view[i];
-            view[i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
-        }
-        planar.push_back(std::abs(-view[2] / depth - 1));
-        ray.push_back(std::abs(std::hypot(view[0], view[1], view[2]) / depth - 1));
-    }
-    if (planar.empty()) return std::nullopt;
-    const double planar_error = quantile(planar, 0.5), ray_error = quantile(ray, 0.5);
-    if (planar_error < fits && clearly * planar_error < ray_error) return DepthKind::planar;
-    if (ray_error < fits && clearly * ray_error < planar_error) return DepthKind::ray;
+    const auto errors = depth_errors(camera, samples);
+    if (!errors) return std::nullopt;
+    const auto [planar, ray] = *errors;
+    if (planar < fits && clearly * planar < ray) return DepthKind::planar;
+    if (ray < fits && clearly * ray < planar) return DepthKind::ray;
     return std::nullopt;
+}
+
+double depth_misfit(const Camera& camera, std::span<const PositionSample> samples) {
+    const auto errors = depth_errors(camera, samples);
+    return errors ? std::min(errors->first, errors->second) : 0;
 }
 
 }  // namespace wrinkle

@@ -19,6 +19,7 @@ struct PositionSample {
 };
 
 /// Samples from about `rows` rows spread over the frame, without the background. Empty when the frame has no positions.
+/// Where depth says that all of a frame is background and its normals do not, depth counts as wrong.
 std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::uint32_t rows = 16);
 
 /// How far from their own pixels a camera projects the positions, in pixels. Positions behind the eye count as
@@ -32,5 +33,8 @@ Residual reprojection_residual(const Camera& camera, Size size, std::span<const 
 /// Whether the depths of the samples are measured along the viewing axis (planar) or along the ray. Nothing when
 /// neither fits, or when the view is so narrow that both do.
 std::optional<DepthKind> measure_depth_kind(const Camera& camera, std::span<const PositionSample> samples);
+
+/// By what share the depths of the samples are off, whichever of both they are meant to be: a median. 0 without depth.
+double depth_misfit(const Camera& camera, std::span<const PositionSample> samples);
 
 }  // namespace wrinkle

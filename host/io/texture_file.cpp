@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/limits.h"
 #include "base/only_errors.h"
 #include "io/image_open.h"
 #include "io/image_parts.h"
@@ -180,11 +181,14 @@ Image load_tiles(const TextureUse& use) {
         const Image image = bump_of(open_flat(one), one);
         if (all.texels.empty()) {
             width = image.width, height = image.height;
+            const double texels = double{1.0} * width * span.columns * height * span.rows;
+            check_memory(use.file.string(), texels * image.channels * sizeof(float),
+                         fmt::format("a picture of {} x {} tiles from 1001 on", span.columns, span.rows));
             all = {width * span.columns, height * span.rows, image.channels, {}};
             const auto flat = flat_texel(use.content, image.channels);
-            const auto texels = static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height);
-            all.texels.reserve(texels * flat.size());
-            for (std::size_t i = 0; i < texels; ++i) all.texels.insert(all.texels.end(), flat.begin(), flat.end());
+            const auto count = static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height);
+            all.texels.reserve(count * flat.size());
+            for (std::size_t i = 0; i < count; ++i) all.texels.insert(all.texels.end(), flat.begin(), flat.end());
         }
         if (image.width != width || image.height != height)
             throw Error(fmt::format("{}: {} x {} texels; the other tiles have {} x {}", tile.file.string(), image.width,

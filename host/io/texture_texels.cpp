@@ -35,9 +35,12 @@ void check_finite(const Image& image, const std::string& name) {
                             std::isnan(*bad) ? "NaN" : "infinite"));
 }
 
-/// Whether a float file stores its normals as (n + 1) / 2, by a majority of texels. A texel counts for it when
-/// unpacking brings its length nearer to 1; of two channels, when the unpacked ones fit into a unit vector. A majority,
-/// since resizing a packed file may leave a few texels outside of [0,1].
+/// Whether numbers of this type can be negative: floats, and signed integers, which are read as [-1,1].
+bool holds_signs(OIIO::TypeDesc format) { return format.is_floating_point() || format.is_signed(); }
+
+/// Whether a file of signed numbers stores its normals as (n + 1) / 2, by a majority of texels. A texel counts for it
+/// when unpacking brings its length nearer to 1; of two channels, when the unpacked ones fit into a unit vector. A
+/// majority, since resizing a packed file may leave a few texels outside of [0,1].
 bool mostly_packed(const Image& read) {
     const auto channels = static_cast<std::size_t>(read.channels);
     std::size_t packed = 0;
@@ -53,10 +56,10 @@ bool mostly_packed(const Image& read) {
 }
 
 /// Normals of three channels in [0,1], from signed ones and from files that have no z.
-Image complete_normals(const Image& read, bool is_float) {
+Image complete_normals(const Image& read, bool may_be_signed) {
     const auto texels = static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height);
     const auto channels = static_cast<std::size_t>(read.channels);
-    const bool is_signed = is_float && !mostly_packed(read);
+    const bool is_signed = may_be_signed && !mostly_packed(read);
     if (!is_signed && channels == 3) return read;
 
     Image image{read.width, read.height, 3, std::vector<float>(texels * 3)};
@@ -70,15 +73,15 @@ Image complete_normals(const Image& read, bool is_float) {
 }
 
 /// Vectors, from files that hold them as they are or as (v + 1) / 2.
-Image unpacked_vectors(Image image, bool is_float) {
+Image unpacked_vectors(Image image, bool may_be_signed) {
     constexpr float shortest = 0.125f;
     const std::size_t texels = image.texels.size() / 3;
     std::vector<float> axis[3];
     for (std::size_t i = 0; i < image.texels.size(); ++i) axis[i % 3].push_back(image.texels[i]);
-    if (is_float && !io::looks_packed(axis[0], axis[1], axis[2])) return image;
+    if (may_be_signed && !io::looks_packed(axis[0], axis[1], axis[2])) return image;
     for (std::size_t i = 0; i < texels; ++i) {
         float v[3] = {2 * axis[0][i] - 1, 2 * axis[1][i] - 1, 2 * axis[2][i] - 1};
-        const bool none = !is_float && std::hypot(v[0], v[1], v[2]) < shortest;
+        const bool none = !may_be_signed && std::hypot(v[0], v[1], v[2]) < shortest;
         for (std::size_t k = 0; k < 3; ++k) image.texels[3 * i + k] = none ? 0 : v[k];
     }
     return image;
@@ -118,7 +121,7 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
                                  "have it write .exr"
                                : ""));
     SlopeLayout layout;
-    layout.packed = encoding == Encoding::unit || (encoding == Encoding::automatic && !spec.format.is_floating_point());
+    layout.packed = encoding == Encoding::unit || (encoding == Encoding::automatic && !holds_signs(spec.format));
     if (unit == SlopeUnit::texel) layout.s_factor = width, layout.t_factor = height;
     return layout;
 }
@@ -128,11 +131,11 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
 Image texture_of(const TexelSource& source, ImageUse use) {
     const OIIO::ImageSpec& spec = source.spec;
     check_channels(spec, use, source.name);
-    const bool is_float = spec.format.is_floating_point();
+    const bool may_be_signed = holds_signs(spec.format);
     auto image = source.read(use == ImageUse::scalar ? 1 : std::min(spec.nchannels, 3));
     check_finite(image, source.name);
-    if (use == ImageUse::object_normal) return unpacked_vectors(std::move(image), is_float);
-    return use == ImageUse::scalar ? image : complete_normals(image, is_float);
+    if (use == ImageUse::object_normal) return unpacked_vectors(std::move(image), may_be_signed);
+    return use == ImageUse::scalar ? image : complete_normals(image, may_be_signed);
 }
 
 Image slopes_of(const TexelSource& source, Encoding encoding, SlopeUnit unit) {

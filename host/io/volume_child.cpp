@@ -19,6 +19,7 @@
 
 #include "base/atomic_file.h"
 #include "base/claim.h"
+#include "base/confined_process.h"
 #include "base/limits.h"
 #include "io/grid_bytes.h"
 #include "wrinkle/error.h"
@@ -94,7 +95,7 @@ T number(const char* text) {
     return value;
 }
 
-/// Limits this process, so that a damaged file cannot take the machine's memory, or run for ever.
+/// Limits this process, so that a damaged file cannot take the machine's memory, run for ever, or reach anything else.
 void limit_this_process(std::uint64_t seconds, std::uint64_t memory) {
     const auto limit = [](auto resource, rlim_t most) {
         rlimit now{};
@@ -109,6 +110,7 @@ void limit_this_process(std::uint64_t seconds, std::uint64_t memory) {
     limit(RLIMIT_AS, memory);
 #endif
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    confine_process();
 }
 
 std::string read_and_pack(char** argv) {

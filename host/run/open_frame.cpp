@@ -41,6 +41,7 @@ Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamer
     Frame frame{.size = reader.size(), .camera = camera.camera, .planes = {}, .ray_depth = false, .cryptomatte = {}};
     for (const std::string& plane : reader.planes()) frame.planes.insert(plane);
     for (const std::string& channel : reader.channels()) frame.planes.insert("channel:" + channel);
+    if (!camera.depth_fits && scene.gbuffer.geometry == Geometry::automatic) frame.planes.erase("depth");
     frame.ray_depth = camera.depth.value_or(reader.roles().depth) == DepthKind::ray;
     if (scene.gbuffer.depth != DepthKind::automatic) frame.ray_depth = scene.gbuffer.depth == DepthKind::ray;
     frame.cryptomatte = cryptomatte_hashes(scene, reader);

@@ -1,9 +1,12 @@
 #include "tools/bake.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/imath.h"
+#include "base/limits.h"
 #include "wrinkle/error.h"
 #include "wrinkle/functions.h"
 
@@ -134,6 +137,8 @@ DenseVolume bake_golden_gradient(const Device& device, int size) {
 
 DenseVolume bake_volume(const Device& device, BakedVolume kind, int size) {
     if (!device.info.fp64) throw Error("baking needs a device with double precision; see \"wrinkle devices\"");
+    constexpr double bytes_of_voxel = 200;  // points, function values and gradients in double, of which some twice
+    check_memory("bake-volume", bytes_of_voxel * std::pow(size, 3), fmt::format("a volume of {}^3 voxels", size));
     switch (kind) {
         case BakedVolume::noise:
             return bake_noise(device, size);
@@ -145,16 +150,18 @@ DenseVolume bake_volume(const Device& device, BakedVolume kind, int size) {
     return bake_golden_gradient(device, size);
 }
 
-std::map<std::string, std::vector<float>> bake_golden_frame(const Device& device, const Camera& camera, Size size) {
+std::map<std::string, std::vector<float>> bake_golden_rows(const Device& device, const Camera& camera, Size size,
+                                                           std::uint32_t row_begin, std::uint32_t row_end) {
     if (!device.info.fp64) throw Error("baking needs a device with double precision; see \"wrinkle devices\"");
     const auto rays = pinhole_rays(camera, size);
     if (!rays) throw Error("a baked frame needs a pinhole camera");
-    const std::size_t pixels = std::size_t{size.width} * size.height;
+    const std::size_t pixels = std::size_t{size.width} * (row_end - row_begin);
     const V3d viewer = to_imath(rays->eye), d0 = to_imath(rays->d0), dx = to_imath(rays->dx), dy = to_imath(rays->dy);
     Field directions;
     Column lengths, distance(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
-        const double x = static_cast<double>(i % size.width) + 0.5, y = static_cast<double>(i / size.width) + 0.5;
+        const double x = static_cast<double>(i % size.width) + 0.5,
+                     y = row_begin + static_cast<double>(i / size.width) + 0.5;
         const V3d ray = d0 + x * dx + y * dy;
         lengths.push_back(ray.length());
         directions.add(direction(ray));

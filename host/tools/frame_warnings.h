@@ -12,6 +12,6 @@ namespace wrinkle {
 std::string uv_problem(const GBufferInfo& info);
 
 /// A line for whatever in a frame spoils layers of the scene without being wrong.
-std::vector<std::string> frame_warnings(const Scene& scene, const GBufferReader& reader);
+std::vector<std::string> frame_warnings(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera);
 
 }  // namespace wrinkle

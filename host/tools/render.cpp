@@ -83,7 +83,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         const FrameCamera camera =
             clock.measure(PhaseClock::read, [&] { return camera_of_frame(scene, reader, frames[f]); });
         report.cameras.push_back(camera.origin + "; " + describe_residual(camera));
-        for (const std::string& line : frame_warnings(scene, reader))
+        for (const std::string& line : frame_warnings(scene, reader, camera))
             if (std::ranges::find(report.warnings, line) == report.warnings.end()) report.warnings.push_back(line);
         const Frame frame = frame_of(scene, reader, camera);
         std::optional<int> number;

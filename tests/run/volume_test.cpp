@@ -16,7 +16,8 @@ const Camera& golden_camera() {
 HostFrame golden_frame(Size size = {128, 96}) {
     HostFrame frame;
     frame.frame.size = size, frame.frame.camera = golden_camera();
-    for (auto& [name, values] : bake_golden_frame(device(), golden_camera(), size)) frame.add(name) = std::move(values);
+    for (auto& [name, values] : bake_golden_rows(device(), golden_camera(), size, 0, size.height))
+        frame.add(name) = std::move(values);
     return frame;
 }
 
