@@ -1,14 +1,33 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/process.h"
 #include "io/volume_child.h"
 #include "wrinkle/error.h"
+
+namespace {
+
+/// The arguments from the last to the first, as CLI11 wants them; "help run" means "run --help", "version" "--version".
+std::vector<std::string> reversed_arguments(int argc, char** argv) {
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && arguments.front() == "version") arguments.front() = "--version";
+    if (!arguments.empty() && arguments.front() == "help") {
+        arguments.erase(arguments.begin());
+        arguments.emplace_back("--help");
+    }
+    std::ranges::reverse(arguments);
+    return arguments;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     if (argc > 1 && std::strcmp(argv[1], wrinkle::io::kServeVolume) == 0) return wrinkle::io::serve_volume(argc, argv);
@@ -45,11 +64,11 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_tune(app);
     wrinkle::cli::add_limit_options(app);
     try {
-        app.parse(argc, argv);
-        if (app.get_subcommands().empty())
-            throw CLI::RequiredError(
-                "A command (run, info, explain, scatter, eval, figures, bake-volume, bake-frame, devices, bench or "
-                "tune)");
+        app.parse(reversed_arguments(argc, argv));
+        if (app.get_subcommands().empty()) {
+            std::fputs(app.help().c_str(), stderr);
+            return 2;
+        }
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         const auto used = app.get_subcommands();

@@ -19,8 +19,14 @@ TEST(Commands, HelpAndVersion) {
     EXPECT_TRUE(std::regex_match(version.out, std::regex("wrinkle \\d+\\.\\d+\\.\\d+\n"))) << version.out;
     for (const char* command : {"run", "info", "explain", "figures", "devices"})
         EXPECT_EQ(place.run(std::string(command) + " --help").code, 0) << command;
-    for (const auto& [arguments, named] : std::map<std::string, std::string>{
-             {"", "command"}, {"paint", "paint"}, {"run", "SCENE"}, {"run a.toml --fast", "--fast"}}) {
+    EXPECT_EQ(place.run("help").out, help.out);
+    EXPECT_EQ(place.run("version").out, version.out);
+    EXPECT_EQ(place.run("help run").out, place.run("run --help").out);
+    const Ran bare = place.run("");
+    EXPECT_EQ(bare.code, 2);
+    EXPECT_EQ(bare.err, help.out);
+    for (const auto& [arguments, named] :
+         std::map<std::string, std::string>{{"paint", "paint"}, {"run", "SCENE"}, {"run a.toml --fast", "--fast"}}) {
         const Ran ran = place.run(arguments);
         EXPECT_EQ(ran.code, 2) << arguments;
         expect_failed(ran, {named, arguments.starts_with("run") ? "\"wrinkle run --help\"" : "\"wrinkle --help\""});
