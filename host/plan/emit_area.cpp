@@ -46,7 +46,7 @@ constexpr const char* kAddSpread =
 constexpr const char* kAddLight =
     "            wr_vec3 bent = wr_resolve(n, surface);\n"
     "            bent = wr_select(wr_sound(bent), bent, n);\n"
-    "            wr_vec3 light = wr_light_surface(centre, bent, v, albedo, roughness, "
+    "            wr_vec3 light = wr_light_surface(centre, bent, base, v, albedo, roughness, "
     "lighting, lights);\n"
     "            lit_sum = wr_select(on, wr_fma(light, share, lit_sum), lit_sum);\n";
 
@@ -102,7 +102,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value)) sums += fmt::format("        wr_vec3 {} = wr_zero3();\n", sum.name);
     if (use.lights) {
-        area.reads.insert("lit"), area.writes.insert("lit");
+        area.reads.insert({"lit", "base"}), area.writes.insert("lit");
         area.operations += 20 + 75 * static_cast<double>(emitter.scene.lighting.lights.size());
         sums += "        wr_vec3 lit_sum = wr_zero3();\n" + lit_surface_text(emitter, area);
     }

@@ -31,7 +31,7 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     const double lights = static_cast<double>(lighting.lights.size());
     Section section;
     section.title = ratio ? "relight the picture by lit(new) / lit(old)" : "light";
-    section.reads = {"valid", "p", "n"};
+    section.reads = {"valid", "p", "n", "base"};
     section.writes = {"lit"};
     section.operations = 20;
     std::string& text = section.body;
@@ -48,19 +48,19 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     }
     if (!ratio) {
         if (!end.at_taps)
-            text += fmt::format("        lit = wr_light_surface(p, n, v, albedo, {}, lighting, lights);\n", now);
+            text += fmt::format("        lit = wr_light_surface(p, n, base, v, albedo, {}, lighting, lights);\n", now);
         text += "        lit = wr_select(valid, lit, wr_zero3());\n";
         return section;
     }
     emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
     section.inputs.insert({"beauty.r", "beauty.g", "beauty.b"});
-    section.reads.insert("base");
     section.operations += 20 + kLight * lights;
-    text += end.at_taps ? "        wr_vec3 old = wr_light_surface(p, base, v, albedo, roughness, lighting, lights);\n"
-                        : fmt::format(
-                              "        wr_vec3 old;\n        lit = wr_light_surface(p, n, {}, base, roughness, v, "
-                              "albedo, lighting, lights, &old);\n",
-                              now);
+    text += end.at_taps
+                ? "        wr_vec3 old = wr_light_surface(p, base, base, v, albedo, roughness, lighting, lights);\n"
+                : fmt::format(
+                      "        wr_vec3 old;\n        lit = wr_light_surface(p, n, {}, base, roughness, v, "
+                      "albedo, lighting, lights, &old);\n",
+                      now);
     const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
     for (const auto& part : parts)
         text += fmt::format(

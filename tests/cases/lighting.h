@@ -46,9 +46,46 @@ inline Cases lighting_cases() {
             {0.5L, 0.25L, 0.75L}, hard ? random.uniform(0, 0.3L) : random.uniform(0.3L, 1), 0.0625L};
         c.add("lighting, seed " + std::to_string(seed), hard);
         c.in("p", p), c.in("n", n), c.in("v", v), c.in("roughness", surface.roughness);
-        c.out("lit", reference::lit(lighting, normalize(n), normalize(v), p, surface));
-        const V m = hard ? random.unit() : Random::rounded(normalize(n + random.unit() * 0.5L));
-        c.in("m", m), c.out("base", reference::lit(lighting, normalize(m), normalize(v), p, surface));
+        V m = hard ? random.unit() : Random::rounded(normalize(n + random.unit() * 0.5L));
+        if (dot(m, v) < 0) m = m * -1.0L;  // the surface that carries the bumps faces the viewer
+        c.in("m", m);
+        c.out("lit", reference::lit(lighting, normalize(n), normalize(m), normalize(v), p, surface));
+        c.out("base", reference::lit(lighting, normalize(m), normalize(v), p, surface));
+    }
+    return c;
+}
+
+/// A bumped normal n, the base's m and a light's direction p. Hard: lights near both terminators, and bumps that face
+/// away from their base.
+inline Cases terminator_cases() {
+    Cases c{.name = "terminator"};
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const V m = random.unit(), n = hard ? random.unit() : Random::rounded(normalize(m + random.unit() * 0.7L));
+        V l = random.unit();
+        if (hard) l = Random::rounded(normalize(cross(m, l) + m * random.magnitude(-6, -1)));
+        if (!hard && std::abs(dot(normalize(n), normalize(l))) < 0.05L) l = m;
+        c.add("terminator, seed " + std::to_string(seed), hard);
+        c.in("n", n), c.in("m", m), c.in("p", l);
+        c.out("keeps", reference::terminator(normalize(n), normalize(m), normalize(l)));
+    }
+    return c;
+}
+
+/// A bumped normal n, the base's m and the view v, which are less than a right angle apart. Hard: views along the base.
+inline Cases mirror_cases() {
+    Cases c{.name = "mirror normal"};
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const V m = random.unit();
+        V v = random.unit(), n = Random::rounded(normalize(m + random.unit() * (hard ? 2.0L : 0.9L)));
+        if (hard) v = Random::rounded(normalize(cross(m, v) + m * random.magnitude(-4, -1)));
+        if (dot(m, v) < 0) v = v * -1.0L;
+        c.add("mirror normal, seed " + std::to_string(seed), hard);
+        c.in("n", n), c.in("m", m), c.in("v", v);
+        c.out("mirror", reference::mirror_normal(normalize(n), normalize(m), normalize(v)));
     }
     return c;
 }

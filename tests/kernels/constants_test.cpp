@@ -65,7 +65,7 @@ TEST(Constants, RoughnessHasAFloorAndTheRatioABias) {
         "constant const wr_lighting *lighting = (constant const wr_lighting *)constants;\n"
         "constant const wr_light *lights = (constant const wr_light *)(lighting + 1);\n"
         "wr_vec3 up = wr_v3((wr_real)(0), (wr_real)(0), (wr_real)(1));\n"
-        "wr_vec3 lit = wr_light_surface(wr_zero3(), up, up, wr_zero3(), v, lighting, lights);";
+        "wr_vec3 lit = wr_light_surface(wr_zero3(), up, up, up, wr_zero3(), v, lighting, lights);";
     wr_lighting lighting{};
     lighting.lights = 1, lighting.f0 = 1;
     wr_light sun{};

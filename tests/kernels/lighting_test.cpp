@@ -10,7 +10,7 @@ const std::string light_it =
     "constant const wr_lighting *lighting = (constant const wr_lighting *)constants;\n"
     "constant const wr_light *lights = (constant const wr_light *)(lighting + 1);\n"
     "wr_vec3 albedo = wr_v3((wr_real)(0.5f), (wr_real)(0.25f), (wr_real)(0.75f));\n"
-    "wr_vec3 lit = wr_light_surface(p, unit(n), unit(v), albedo, roughness, lighting, lights);";
+    "wr_vec3 lit = wr_light_surface(p, unit(n), unit(m), unit(v), albedo, roughness, lighting, lights);";
 
 TEST(Lighting, RadianceOfThreeLights) {
     check(cases::lighting_cases(), light_it,
@@ -37,6 +37,9 @@ TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
                           {"n.x", {0, 0, 0, 0, 1}},
                           {"n.y", {0, 0, 0, 0, 0}},
                           {"n.z", {z, -z, z, z, 0}},
+                          {"m.x", {0, 0, 0, 0, 1}},
+                          {"m.y", {0, 0, 0, 0, 0}},
+                          {"m.z", {z, -z, z, -z, 0}},
                           {"v.x", {0, 0, 0, 0, 0}},
                           {"v.y", {0, 0, 0, 0, 0}},
                           {"v.z", {z, -z, z, -z, -z}},
@@ -48,6 +51,19 @@ TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
             for (std::size_t i = 0; i < channel.size(); ++i)
                 EXPECT_TRUE(std::isfinite(channel[i])) << "row " << i << ", " << lanes << " lanes";
     }
+}
+
+TEST(Lighting, NothingIsLitBehindTheSurfaceThatCarriesTheBumps) {
+    check(cases::terminator_cases(),
+          "wr_vec3 bumped = unit(n), base = unit(m), l = unit(p);\n"
+          "wr_real n_l = fmax(wr_dot(bumped, l), (wr_real)(0));\n"
+          "wr_real keeps = wr_terminator(wr_dot(base, l), n_l, wr_dot(bumped, base));",
+          {{"keeps", {"keeps"}, ErrorMeasure::absolute, 2e-6, 1e-4, 1e-10}});
+}
+
+TEST(Lighting, NothingIsMirroredFromBelowTheSurface) {
+    check(cases::mirror_cases(), "wr_vec3 mirror = wr_mirror_normal(unit(n), unit(m), unit(v));",
+          {{"mirror", xyz("mirror"), ErrorMeasure::degrees, 1e-4, 2e-2, 1e-8}});
 }
 
 TEST(Lighting, RoughnessWidensByTwiceTheVariance) {

@@ -125,7 +125,7 @@ public:
         if (frame_.has("albedo.r")) surface.albedo = rgb("albedo", i);
         if (frame_.has("roughness")) surface.roughness = frame_.plane("roughness")[i];
         const Vec<T> world = e.position + frame_.rays().eye();
-        const Vec<T> now = lit(lighting, e.normal, e.view, world, surface);
+        const Vec<T> now = lit(lighting, e.normal, e.base_normal, e.view, world, surface);
         if (!ratio) return now;
         const Vec<T> old = lit(lighting, e.base_normal, e.view, world, surface);
         const T bound = lighting.max_ratio;

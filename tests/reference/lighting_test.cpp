@@ -68,6 +68,22 @@ TEST(Lighting, PointAndSpotFallOff) {
     EXPECT_NEAR(arrival(light, V{x, 0, 0}).irradiance.x, 8 / (4 + x * x) / 2, 1e-15L);
 }
 
+TEST(Lighting, BumpsAreDarkBehindTheSurfaceAndNeverMirrorWhatIsBelowIt) {
+    const V base{0, 0, 1}, light = normalize(V{1, 0, -0.05L}), low = normalize(V{1, 0, 0.05L});
+    EXPECT_EQ(terminator(normalize(V{0.5L, 0, 1}), base, light), 0);
+    EXPECT_EQ(terminator(base, base, low), 1);
+    EXPECT_GT(terminator(normalize(V{0.5L, 0, 1}), base, low), 0);
+    EXPECT_LT(terminator(normalize(V{0.5L, 0, 1}), base, low), 0.3L);
+    for (int i = 1; i < 40; ++i) {
+        const V v = on_hemisphere(i / 40.0L, i * 1.7L), n = normalize(base + on_hemisphere(0, i * 0.9L) * 0.8L);
+        const V mirror = mirror_normal(n, base, v), reflected = mirror * (2 * dot(mirror, v)) - v;
+        EXPECT_GE(reflected.z, std::min(0.9L * v.z, 0.01L) - 1e-15L) << i;
+        EXPECT_NEAR(length(mirror), 1, 1e-15L);
+        EXPECT_LE(std::abs(dot(cross(base, n), mirror)), 1e-15L) << "in the plane of both";
+        EXPECT_EQ(length(mirror_normal(base, base, v) - base), 0);
+    }
+}
+
 TEST(Lighting, RatioIsBounded) {
     EXPECT_EQ(relight_ratio(2.0L, 1.0L, 1.0L, 4.0L), 2);
     EXPECT_EQ(relight_ratio(2.0L, 1.0L, 0.0L, 4.0L), 8);
