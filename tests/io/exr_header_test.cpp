@@ -142,13 +142,14 @@ TEST(ExrHeader, TwoThousandOddOnes) {
         const auto began = std::chrono::steady_clock::now();
         const std::string text = outcome_of(folder, bytes);
         read += text.empty() ? 1 : 0;
-        if (!test::kSanitized)
+        if (!test::kSanitized) {
             EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(2)) << trial << ": " << text;
+        }
         if (!text.empty()) { EXPECT_EQ(text.find(folder / "odd.exr"), 0U) << text; }
     }
     getrusage(RUSAGE_SELF, &after);
     constexpr long kMost = 300 << 10;  // kB
-    if (!test::kSanitized) EXPECT_LT(after.ru_maxrss - before.ru_maxrss, kMost);
+    if (!test::kSanitized) { EXPECT_LT(after.ru_maxrss - before.ru_maxrss, kMost); }
     EXPECT_GT(read, 100) << "nearly all were refused, which proves little";
 }
 

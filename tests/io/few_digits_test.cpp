@@ -48,7 +48,7 @@ TEST(FewDigits, LeaveNoCryptomatte) {
 TEST(FewDigits, SignedIntegersHoldSignedNormalsAndSlopes) {
     const TempFolder folder;
     const auto texel = [](int c, int x, int) { return c == 2 ? 0.8f : c == 0 ? (x % 2 ? 0.6f : -0.6f) : 0.0f; };
-    for (const auto type : {OIIO::TypeDesc(OIIO::TypeDesc::INT16), OIIO::TypeDesc(OIIO::TypeDesc::INT8)}) {
+    for (const auto& type : {OIIO::TypeDesc(OIIO::TypeDesc::INT16), OIIO::TypeDesc(OIIO::TypeDesc::INT8)}) {
         write_image(folder / "n.tif", {{make_spec(8, 4, {"R", "G", "B"}, type), texel}});
         const Image normals = load_texture(folder / "n.tif", ImageUse::normal);
         EXPECT_NEAR(normals.at(1, 0, 0), 0.8, 0.01);  // as (n + 1) / 2
