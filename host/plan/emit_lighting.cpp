@@ -61,14 +61,19 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
                       "        wr_vec3 old;\n        lit = wr_light_surface(p, n, {}, base, roughness, v, "
                       "albedo, lighting, lights, &old);\n",
                       now);
+    // Metal mirrors what is around it, which nobody knows: it stays as it is.
+    const bool metal = section.inputs.contains("albedo.r");
+    if (metal)
+        text +=
+            "        const wr_mask changes = valid & (fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO);\n";
     const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
     for (const auto& part : parts)
         text += fmt::format(
             "        wr_floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
             "        wr_mask seen_{1} = wr_finite(raw_{1});\n"
             "        wr_real {1} = wr_to_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
-            "        lit.{0} = valid ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
-            part.axis, part.color);
+            "        lit.{0} = {2} ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
+            part.axis, part.color, metal ? "changes" : "valid");
     if (emitter.scene.output.marked) {
         section.reads.insert("marked");
         section.writes.insert("marked");

@@ -30,6 +30,17 @@ fs::path file_name(const char* stem, const char* extension, std::optional<int> f
     return frame ? fmt::format("{}.{:04d}.{}", stem, *frame, extension) : fmt::format("{}.{}", stem, extension);
 }
 
+/// The channel that holds the picture's coverage: the alpha beside its colours.
+std::string alpha_channel(const GBufferReader& reader) {
+    const auto red = reader.roles().channel_of.find("beauty.r");
+    if (red == reader.roles().channel_of.end()) return {};
+    const std::string layer = red->second.substr(0, red->second.rfind('.') + 1);  // "" of a plain "R"
+    for (const std::string& channel : reader.channels())
+        for (const char* name : {"a", "alpha"})
+            if (lower(channel) == lower(layer) + name) return channel;
+    return {};
+}
+
 Metadata provenance(const Scene& scene, const GBufferReader& reader, bool passthrough) {
     Metadata metadata = passthrough ? reader.metadata() : Metadata();
     metadata.set("Software", "wrinkle");
@@ -112,7 +123,13 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
             PngEncoding::normal);
     if (scene.lighting.relight == Relight::off) return;
     const std::vector<std::string> lit{"out:lit.r", "out:lit.g", "out:lit.b"}, colors{"R", "G", "B"};
-    add(file_name("lit", "exr", frame), lit, colors, PngEncoding::linear);
+    std::vector<std::string> with_alpha = lit, colors_alpha = colors;
+    if (const std::string alpha = alpha_channel(reader); !alpha.empty() && scene.lighting.relight == Relight::ratio &&
+                                                         reader.channel_type(alpha) != ChannelType::whole) {
+        passed_.push_back("channel:" + alpha);  // colours are premultiplied, so factors leave it as it is
+        with_alpha.push_back(passed_.back()), colors_alpha.emplace_back("A");
+    }
+    add(file_name("lit", "exr", frame), with_alpha, colors_alpha, PngEncoding::linear);
     if (!output.png) return;
     add(file_name("lit", "png", frame), lit, colors, PngEncoding::srgb);
     if (scene.lighting.relight == Relight::ratio)

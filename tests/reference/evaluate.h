@@ -127,6 +127,8 @@ public:
         const Vec<T> world = e.position + frame_.rays().eye();
         const Vec<T> now = lit(lighting, e.normal, e.base_normal, e.view, world, surface);
         if (!ratio) return now;
+        const Vec<T> a = surface.albedo;
+        if (frame_.has("albedo.r") && !(std::max({a.x, a.y, a.z}) > T(1) / 1000)) return beauty;  // metal
         const Vec<T> old = lit(lighting, e.base_normal, e.view, world, surface);
         const T bound = lighting.max_ratio;
         return {relight_ratio(beauty.x, now.x, old.x, bound), relight_ratio(beauty.y, now.y, old.y, bound),
