@@ -186,8 +186,12 @@ std::string normals_misfit(const GBufferReader& reader, const Camera& camera) {
     }
     if (off <= far_off) return {};
     std::string reason = "are they in world space, and of this frame?";
-    for (const Meaning& meaning : meanings(camera))
-        if (median_angle(quads, meaning.meant) < fits) reason = meaning.what;
+    double best = fits;
+    for (const Meaning& meaning : meanings(camera)) {
+        const double angle = median_angle(quads, meaning.meant);
+        if (angle >= best) continue;
+        best = angle, reason = meaning.what;
+    }
     return fmt::format(
         "the normals ({}) do not fit the surface that {} shows: half of them are off by {:.0f} degrees or more; {}",
         reader.roles().channel_of.find("normal.x")->second,

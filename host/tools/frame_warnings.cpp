@@ -22,8 +22,8 @@ std::string problem_of_uv(const RoleMap& roles, io::UvDigits digits) {
         (roles.has_role("duv_dx") && roles.has_role("duv_dy")) || (roles.has_role("dp_du") && roles.has_role("dp_dv"));
     if (derivatives || digits == io::UvDigits::enough) return {};
     return fmt::format(
-        "the UV pass ({}) holds {}-bit numbers: its steps from pixel to pixel have too few digits for slopes; render "
-        "it in 32 bits, or render dp_du and dp_dv, or use uv = {{ source = \"planar\" }}",
+        "the UV pass ({}) is {}-bit: its steps from pixel to pixel have too few digits for slopes; render it "
+        "in 32 bits, or render dp_du and dp_dv, or use uv = {{ source = \"planar\" }}",
         roles.channel_of.find("uv.u")->second, digits == io::UvDigits::half ? 16 : 8);
 }
 

@@ -125,8 +125,8 @@ TEST_F(SurfaceCheck, DepthThatIsNoDistanceIsTold) {
                    {"depth (Z) does not fit the positions", "Positions are used"});
         EXPECT_FALSE(fits);
     }
-    expect_one(doubts(with_depth([](float z) { return z < 1e9f ? z / 20 : 0; }, true), &fits), {"is off by"});
-    expect_one(doubts(with_depth([](float z) { return z < 1e9f ? z / 20 : 1; }, false)), {"between 0 and 1"});
+    expect_one(doubts(with_depth([](float z) { return z < 1e9f ? z / 1000 : 0; }, true), &fits), {"is off by"});
+    expect_one(doubts(with_depth([](float z) { return z < 1e9f ? z / 1000 : 1; }, false)), {"between 0 and 1"});
     expect_one(doubts(with_depth([](float z) { return -z; }, false)), {"depth (Z) is negative for 100%"});
 }
 
