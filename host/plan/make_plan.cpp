@@ -107,7 +107,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     const bool written = output.dp_dx || output.dp_dy;  // those of the last stage's surface
     if (written) first.insert("dp_dx");
     const bool relight = emitter.scene.lighting.relight != Relight::off;
-    if (relight) first.insert("base");
+    if (relight && emitter.options.write_normal) first.insert("base");
 
     std::vector<Section> sections;
     const auto add = [&](Section section, int stage) {
