@@ -61,26 +61,35 @@ def ball(eye, rays):
     return depth, np.where(seen[..., None], eye + np.where(seen, depth, 0)[..., None] * rays, 0)
 
 
-def scene(layer, roughness, sun, taps, **keys):
+def scene(taps, layer, roughness, sun, **keys):
     return wrinkle.Scene(layers=[layer.replace(**keys)], lights=[wrinkle.Light("sun", direction=sun, intensity=2.5)],
                          lighting={"relight": "lit", "roughness": roughness, "ambient": [0.05] * 3},
-                         filter={"taps": taps}, folder=data / "textures")
+                         output={"surface_gradient": True}, filter={"taps": taps}, folder=data / "textures")
 
 
-def pictures(view, *what):
-    """By one point, by sixteen, and the truth."""
+def evaluated(view, *what):
+    """By one point, by sixteen, and the truth; and the pixels that the surface covers whole."""
     frame = view.gbuffer()
-    out = [wrinkle.evaluate(scene(*what, taps), frame)["lit"] for taps in (1, 16)]
-    points = wrinkle.Pass(scene(*what, 1, footprint=False), frame)
-    truth = np.zeros_like(out[0], np.float64)
+    out = [wrinkle.evaluate(scene(taps, *what), frame) for taps in (1, 16)]
+    points = wrinkle.Pass(scene(1, *what, footprint=False), frame)
+    truth, covered = {}, True
     for y in range(POINTS):
         for x in range(POINTS):
-            truth += points.run(view.gbuffer((x + 0.5) / POINTS, (y + 0.5) / POINTS))["lit"]
-    return [*out, truth / POINTS**2]
+            point = view.gbuffer((x + 0.5) / POINTS, (y + 0.5) / POINTS)
+            covered &= np.isfinite(point.plane("depth"))
+            for name, plane in points.run(point).items():
+                truth[name] = truth.get(name, 0) + plane.astype(np.float64) / POINTS**2
+    return [*out, truth], covered
 
 
-def decibels(picture, truth):
-    return -10 * np.log10(((picture - truth) ** 2).mean())
+def decibels(picture, truth, where):
+    return -10 * np.log10(((picture["lit"] - truth["lit"])[where] ** 2).mean())
+
+
+def degrees(picture, truth, where):
+    """How far the ground's normals are from that of the mean surface gradient."""
+    a, b = ([0, 0, 1] - p["surface_gradient"][where].astype(np.float64) for p in (picture, truth))
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
 
 
 cobbles = wrinkle.HeightMap(texture="cobbles_height.png", scale=0.05, uv=wrinkle.Uv(source="planar", scale=1 / 1.8))
@@ -95,13 +104,20 @@ rows = [
 ]
 figure, axes = plt.subplots(3, 3, figsize=(14.4, 6.9), gridspec_kw={"height_ratios": [270, 200, 200]})
 for row, (name, view, what) in zip(axes, rows):
-    shown = pictures(view, *what)
+    shown, covered = evaluated(view, *what)
     for axis, picture, title in zip(row, shown, ("one point of a pixel", "sixteen", "1024: the truth")):
-        axis.imshow(np.clip(picture, 0, 1) ** (1 / 2.2), interpolation="nearest", aspect="auto")
-        far = "" if picture is shown[2] else f", {decibels(picture, shown[2]):.1f} dB"
-        axis.set_title(title + far, fontsize=10)
+        axis.imshow(np.clip(picture["lit"], 0, 1) ** (1 / 2.2), interpolation="nearest", aspect="auto")
         axis.set(xticks=[], yticks=[])
-        print(f"{name}: {title}{far}")
+        if picture is not shown[2]:
+            title += f", {decibels(picture, shown[2], covered):.1f} dB"
+        axis.set_title(title, fontsize=10)
+        print(f"{name}: {title}")
     row[0].set_ylabel(name, fontsize=9)
+    if name.startswith("ground"):
+        for zone, lines in (("near", slice(181, None)), ("middle", slice(111, 181)), ("far", slice(0, 111))):
+            where = covered & np.isin(np.arange(view.height), np.arange(view.height)[lines])[:, None]
+            for picture, title in zip(shown, ("one point", "sixteen")):
+                median, most = np.percentile(degrees(picture, shown[2], where), [50, 99])
+                print(f"  normals, {zone}, {title}: {median:.2f} degrees off (median), {most:.1f} (99 %)")
 figure.subplots_adjust(left=0.02, right=0.998, top=0.965, bottom=0.005, wspace=0.015, hspace=0.13)
 figure.savefig(data / "pictures" / "area.jpg", dpi=100, pil_kwargs={"quality": 88})

@@ -1,13 +1,13 @@
 # `./bootstrap package`: a Debian package of what `cmake --install` lays out, with man pages and completions.
 find_program(HELP2MAN help2man)
-find_package(Python3 COMPONENTS Interpreter)
-if(TARGET wrinkle_cli AND HELP2MAN AND Python3_FOUND)
+find_program(PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(TARGET wrinkle_cli AND HELP2MAN AND PYTHON3)
   set(pages ${CMAKE_CURRENT_BINARY_DIR}/pages)
   add_custom_target(
     wrinkle_pages
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
-    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/document.py $<TARGET_FILE:wrinkle_cli> ${pages}
+    COMMAND ${PYTHON3} ${CMAKE_CURRENT_LIST_DIR}/document.py $<TARGET_FILE:wrinkle_cli> ${pages}
     DEPENDS wrinkle_cli
     VERBATIM)
   install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL FILES_MATCHING PATTERN "*.1")

@@ -46,7 +46,7 @@ constexpr const char* kAddSpread =
 constexpr const char* kAddLight =
     "            wr_vec3 bent = wr_resolve(n, surface);\n"
     "            bent = wr_select(wr_sound(bent), bent, n);\n"
-    "            wr_vec3 light = wr_light_surface(centre, bent, base, v, albedo, roughness, "
+    "            wr_vec3 light = wr_light_surface(centre, bent, base, v, albedo, {}, "
     "lighting, lights);\n"
     "            lit_sum = wr_select(on, wr_fma(light, share, lit_sum), lit_sum);\n";
 
@@ -155,8 +155,10 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
                 fmt::format("            {0} = wr_select(on, wr_fma({1}, share, {0}), {0});\n", sum.name, sum.value);
     if (use.spread || use.lights)
         text += "            wr_vec3 surface = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
+    // Before the slopes of the points are added to it, `finer` is what each of them shows of its own share of the area.
+    if (use.lights)
+        text += fmt::format(kAddLight, use.spread ? "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))" : "roughness");
     if (use.spread) text += kAddSpread;
-    if (use.lights) text += kAddLight;
     text += "        }\n        }\n";
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value)) text += fmt::format("        {} = {};\n", sum.value, sum.name);
