@@ -58,15 +58,17 @@ typedef struct {
     WR_SCALAR position[3];          // relative to the eye, metres; not of a sun
     WR_SCALAR to_light[3];          // unit, world, against the way the light travels; of a sun and a spot
     WR_SCALAR cos_inner, cos_outer; // of a spot: cosine of the angle up to which light is full, and from which none
+    WR_SCALAR picture;              // number of the picture that shows this light alone, from 1 on; 0: none does
 } wr_light;
 
 // Lighting of a frame.
 typedef struct {
-    WR_SCALAR ambient[3];         // radiance from all around
+    WR_SCALAR sky[27];            // irradiance / pi by the normal: 9 coefficients of red, green, blue; see wr_sky
     WR_SCALAR albedo[3];          // where the frame has none
     WR_SCALAR roughness;          // where the frame has none
     WR_SCALAR f0;                 // reflectance at normal incidence
     WR_SCALAR max_ratio, lights;  // bound of wr_relight_ratio; number of lights
+    WR_SCALAR shadow;             // share of a light's radiance that a picture shows of other light in its shadow
 } wr_lighting;
 
 // Texture table: WR_TEXTURE_WORDS 32-bit numbers a texture.

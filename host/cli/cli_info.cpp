@@ -84,6 +84,7 @@ void print_text(const GBufferInfo& info) {
                    measured ? "measured against the positions" : "by the writer");
     }
     if (!info.cryptomatte_names.empty()) fmt::print("  Cryptomatte names: {}\n", join(info.cryptomatte_names));
+    if (!info.light_pictures.empty()) fmt::print("  pictures of lights: {}\n", join(info.light_pictures));
 
     if (info.camera) {
         fmt::print("\ncamera: {}\n", info.camera->origin);
@@ -139,7 +140,8 @@ void print_json(const GBufferInfo& info) {
                                                 {"roles", roles},
                                                 {"camera", camera},
                                                 {"uses", uses},
-                                                {"cryptomatte", info.cryptomatte_names}}));
+                                                {"cryptomatte", info.cryptomatte_names},
+                                                {"light_pictures", info.light_pictures}}));
 }
 
 struct InfoArguments {

@@ -168,6 +168,7 @@ const std::vector<Role>& gbuffer_roles() {
         {"bitangent", {"bitangent.x", "bitangent.y", "bitangent.z"}},
         {"albedo", {"albedo.r", "albedo.g", "albedo.b"}},
         {"roughness", {"roughness"}},
+        {"metallic", {"metallic"}},
         {"beauty", {"beauty.r", "beauty.g", "beauty.b"}},
         {"cryptomatte", {"crypto.id0", "crypto.coverage0"}},  // and further ranks, as many as the file has
     };

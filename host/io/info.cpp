@@ -8,6 +8,7 @@
 #include "io/background.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
+#include "io/light_pictures.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -111,6 +112,7 @@ GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraS
     info.objects = reader.object_storage();
     info.stats = measure(reader, info.measured);
     info.cryptomatte_names = reader.cryptomatte().names();
+    info.light_pictures = io::light_pictures(info.channels);
     const CameraSource wanted = camera.value_or(CameraSource{});
     try {
         info.camera = read_frame_camera(wanted, reader, frame);

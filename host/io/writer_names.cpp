@@ -28,6 +28,7 @@ std::span<const RoleNames> role_names() {
         {"bitangent", {"bitangent", "worldbitangent", "bitangents", "binormal", "worldbinormal", "mikkbitangent"}},
         {"albedo", {"albedo", "diffcol", "basecolor", "diffusecolor", "diffusefilter", "denoisingalbedo"}},
         {"roughness", {"roughness", "specularroughness"}},
+        {"metallic", {"metallic", "metalness", "metallness", "metal"}},
         {"beauty", {"beauty", "combined", "rgba", "rgb", "rgbcolor", "c", "ci", "image", "finalimage", ""}},
     };
     return names;

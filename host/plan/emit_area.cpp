@@ -43,12 +43,18 @@ constexpr const char* kAddSpread =
     "            finer = wr_add(finer, wr_v3(slope.x * slope.x, slope.x * slope.y, slope.y * slope.y));\n"
     "            products = wr_select(on, wr_fma(finer, share, products), products);\n";
 
-constexpr const char* kAddLight =
-    "            wr_vec3 bent = wr_resolve(n, surface);\n"
-    "            bent = wr_select(wr_sound(bent), bent, n);\n"
-    "            wr_vec3 light = wr_light_surface(centre, bent, base, v, albedo, {}, "
-    "lighting, lights);\n"
-    "            lit_sum = wr_select(on, wr_fma(light, share, lit_sum), lit_sum);\n";
+/// Text that adds the light on a point to the sums.
+std::string add_light_text(const Emitter& emitter, const char* roughness) {
+    std::string text =
+        "            wr_vec3 bent = wr_resolve(n, surface);\n"
+        "            bent = wr_select(wr_sound(bent), bent, n);\n";
+    for (const LitTerm& term : lit_terms(emitter))
+        text += fmt::format(
+            "            wr_vec3 {0}_here = {1};\n"
+            "            {0}_sum = wr_select(on, wr_fma({0}_here, share, {0}_sum), {0}_sum);\n",
+            term.value, term.of("centre", "bent", roughness));
+    return text;
+}
 
 }  // namespace
 
@@ -102,9 +108,13 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value)) sums += fmt::format("        wr_vec3 {} = wr_zero3();\n", sum.name);
     if (use.lights) {
-        area.reads.insert({"lit", "base"}), area.writes.insert("lit");
+        area.reads.insert("base");
+        for (const LitTerm& term : lit_terms(emitter)) {
+            area.reads.insert(term.value), area.writes.insert(term.value);
+            sums += fmt::format("        wr_vec3 {}_sum = wr_zero3();\n", term.value);
+        }
         area.operations += 20 + 75 * static_cast<double>(emitter.scene.lighting.lights.size());
-        sums += "        wr_vec3 lit_sum = wr_zero3();\n" + lit_surface_text(emitter, area);
+        sums += lit_surface_text(emitter, area);
     }
     if (use.spread) {
         area.reads.insert("spread"), area.writes.insert("spread");
@@ -157,13 +167,18 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
         text += "            wr_vec3 surface = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
     // Before the slopes of the points are added to it, `finer` is what each of them shows of its own share of the area.
     if (use.lights)
-        text += fmt::format(kAddLight, use.spread ? "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))" : "roughness");
+        text += add_light_text(
+            emitter,
+            use.spread ? "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))" : "roughness");
     if (use.spread) text += kAddSpread;
     text += "        }\n        }\n";
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value)) text += fmt::format("        {} = {};\n", sum.value, sum.name);
     if (use.spread) text += kSpreadEnd;
-    if (use.lights) text += use.first ? "        lit = lit_sum;\n" : "        lit = wr_select(wanted, lit_sum, lit);\n";
+    if (use.lights)
+        for (const LitTerm& term : lit_terms(emitter))
+            text += use.first ? fmt::format("        {0} = {0}_sum;\n", term.value)
+                              : fmt::format("        {0} = wr_select(wanted, {0}_sum, {0});\n", term.value);
     text += "        }\n";
     return area;
 }

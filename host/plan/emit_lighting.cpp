@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "plan/geometry_text.h"
+#include "plan/light_pictures.h"
 
 namespace wrinkle {
 
@@ -24,11 +25,83 @@ std::string lit_surface_text(Emitter& emitter, Section& section) {
     return text + roughness_text(emitter, section);
 }
 
+std::vector<LitTerm> lit_terms(const Emitter& emitter) {
+    if (emitter.scene.lighting.relight != Relight::ratio)
+        return {{"lit", "wr_light_surface({p}, {n}, base, v, albedo, {roughness}, lighting, lights)"}};
+    std::vector<LitTerm> terms{{"lit_sky", "wr_sky(lighting, {n}, base)"}};
+    const std::size_t pictures = pictures_of(emitter.scene.lighting).size();
+    for (std::size_t k = 0; k <= pictures; ++k)
+        terms.push_back(
+            {lit_name(k),
+             fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k)});
+    return terms;
+}
+
+std::string LitTerm::of(const std::string& p, const std::string& n, const std::string& roughness) const {
+    return fmt::format(fmt::runtime(call), fmt::arg("p", p), fmt::arg("n", n), fmt::arg("roughness", roughness));
+}
+
+namespace {
+
+constexpr double kLight = 75;  // expected operations, of one normal and one light
+
+/// Text that loads a picture as a vector, and where it is finite.
+std::string load_text(Section& section, const std::string& name, const std::array<std::string, 3>& planes) {
+    section.inputs.insert(planes.begin(), planes.end());
+    return fmt::format(
+        "        wr_mask {0}_seen;\n"
+        "        wr_vec3 {0} = wr_load_picture({1}, {2}, {3}, at.in, &{0}_seen);\n",
+        name, identifier(planes[0]), identifier(planes[1]), identifier(planes[2]));
+}
+
+/// Text that sets `lit`, which holds what lights without pictures give, to the picture with the bumps.
+std::string relight_text(Emitter& emitter, Section& section) {
+    const std::vector<std::string> pictures = pictures_of(emitter.scene.lighting);
+    std::string text = load_text(section, "beauty", {"beauty.r", "beauty.g", "beauty.b"}) +
+                       "        wr_vec3 rest = beauty, change = wr_zero3();\n";
+    // A picture of one light that has a hole shows nothing of it there: all is taken for other light.
+    for (std::size_t k = 1; k <= pictures.size(); ++k)
+        text += load_text(section, fmt::format("own_{}", k), picture_planes(emitter, pictures[k - 1])) +
+                fmt::format(
+                    "        own_{0} = wr_max(wr_select(own_{0}_seen, own_{0}, wr_zero3()), wr_zero3());\n"
+                    "        rest = wr_sub(rest, own_{0});\n"
+                    "        change = wr_add(change, wr_relight_change(own_{0}, {1}, old_{1}, lighting->max_ratio));\n",
+                    k, lit_name(k));
+    text +=
+        "        rest = wr_max(rest, wr_zero3());\n"
+        "        wr_vec3 sky = wr_v3(albedo.x * old_lit_sky.x, albedo.y * old_lit_sky.y, albedo.z * old_lit_sky.z);\n";
+    if (emitter.scene.lighting.shadows == Shadows::read)
+        text +=
+            "        wr_vec3 lamps = wr_min(wr_scale(old_lit, wr_visibility(rest, sky, old_lit, lighting->shadow)), "
+            "rest);\n"
+            "        change = wr_add(change, wr_relight_change(lamps, lit, old_lit, lighting->max_ratio));\n"
+            "        change = wr_add(change,\n"
+            "            wr_relight_change(wr_sub(rest, lamps), lit_sky, old_lit_sky, lighting->max_ratio));\n";
+    else
+        text +=
+            "        lit = wr_add(lit, wr_v3(albedo.x * lit_sky.x, albedo.y * lit_sky.y, albedo.z * lit_sky.z));\n"
+            "        change = wr_add(change, wr_relight_change(rest, lit, wr_add(old_lit, sky), "
+            "lighting->max_ratio));\n";
+    // Metal mirrors what is around it, which nobody knows: it stays as it is.
+    if (emitter.has("metallic")) {
+        section.inputs.insert("metallic");
+        text += "        change = wr_scale(change, 1 - wr_mask_channel(wr_load(in_metallic, at.in)));\n";
+    } else if (section.inputs.contains("albedo.r")) {
+        text +=
+            "        change = wr_select(fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO, change, "
+            "wr_zero3());\n";
+    }
+    return text +
+           "        lit = wr_select(valid, wr_max(wr_add(beauty, change), wr_min(beauty, wr_zero3())), beauty);\n";
+}
+
+}  // namespace
+
 Section emit_lighting(Emitter& emitter, const LightEnd& end) {
-    constexpr double kLight = 75;  // expected operations, of one normal and one light
     const Lighting& lighting = emitter.scene.lighting;
     const bool ratio = lighting.relight == Relight::ratio;
     const double lights = static_cast<double>(lighting.lights.size());
+    const std::vector<LitTerm> terms = lit_terms(emitter);
     Section section;
     section.title = ratio ? "relight the picture by lit(new) / lit(old)" : "light";
     section.reads = {"valid", "p", "n", "base"};
@@ -38,7 +111,7 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     text = lit_surface_text(emitter, section);
     std::string now = "roughness";
     if (end.at_taps) {
-        section.reads.insert("lit");
+        for (const LitTerm& term : terms) section.reads.insert(term.value);
     } else {
         section.operations += kLight * lights;
         if (end.spread) {
@@ -47,37 +120,22 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
         }
     }
     if (!ratio) {
-        if (!end.at_taps)
-            text += fmt::format("        lit = wr_light_surface(p, n, base, v, albedo, {}, lighting, lights);\n", now);
+        if (!end.at_taps) text += fmt::format("        lit = {};\n", terms.front().of("p", "n", now));
         text += "        lit = wr_select(valid, lit, wr_zero3());\n";
         return section;
     }
     emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
-    section.inputs.insert({"beauty.r", "beauty.g", "beauty.b"});
-    section.operations += 20 + kLight * lights;
-    text += end.at_taps
-                ? "        wr_vec3 old = wr_light_surface(p, base, base, v, albedo, roughness, lighting, lights);\n"
-                : fmt::format(
-                      "        wr_vec3 old;\n        lit = wr_light_surface(p, n, {}, base, roughness, v, "
-                      "albedo, lighting, lights, &old);\n",
-                      now);
-    // Metal mirrors what is around it, which nobody knows: it stays as it is.
-    const bool metal = section.inputs.contains("albedo.r");
-    if (metal)
-        text +=
-            "        const wr_mask changes = valid & (fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO);\n";
-    const struct { char axis, color; } parts[] = {{'x', 'r'}, {'y', 'g'}, {'z', 'b'}};
-    for (const auto& part : parts)
-        text += fmt::format(
-            "        wr_floats raw_{1} = wr_load_floats(in_beauty_{1}, at.in);\n"
-            "        wr_mask seen_{1} = wr_finite(raw_{1});\n"
-            "        wr_real {1} = wr_to_real(wr_valid_or(raw_{1}, seen_{1}, 0));\n"
-            "        lit.{0} = {2} ? {1} * wr_relight_ratio(lit.{0}, old.{0}, lighting->max_ratio) : {1};\n",
-            part.axis, part.color, metal ? "changes" : "valid");
+    section.operations += 60 + kLight * lights;
+    for (const LitTerm& term : terms) {
+        if (!end.at_taps && term.value != "lit") text += fmt::format("        wr_vec3 {};\n", term.value);
+        if (!end.at_taps) text += fmt::format("        {} = {};\n", term.value, term.of("p", "n", now));
+        text += fmt::format("        wr_vec3 old_{} = {};\n", term.value, term.of("p", "base", "roughness"));
+    }
+    text += relight_text(emitter, section);
     if (emitter.scene.output.marked) {
         section.reads.insert("marked");
         section.writes.insert("marked");
-        text += "        marked += (seen_r & seen_g & seen_b) ? (wr_real)(0) : (wr_real)(16);\n";
+        text += "        marked += beauty_seen ? (wr_real)(0) : (wr_real)(16);\n";
     }
     return section;
 }

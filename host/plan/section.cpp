@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/names.h"
+#include "plan/light_pictures.h"
 #include "plan/precision.h"
 #include "wrinkle/error.h"
 
@@ -32,9 +33,14 @@ const std::vector<Value>& values() {
         {"g", "wr_vec3", {".x", ".y", ".z"}},
         {"dh_dp", "wr_vec3", {".x", ".y", ".z"}},
         {"spread", "wr_vec3", {".x", ".y", ".z"}},
-        {"lit", "wr_vec3", {".x", ".y", ".z"}},
+        {"lit_sky", "wr_vec3", {".x", ".y", ".z"}},
     };
-    return all;
+    static const std::vector<Value> with_lights = [] {
+        std::vector<Value> values = all;
+        for (std::size_t k = 0; k <= kMostPictures; ++k) values.push_back({lit_name(k), "wr_vec3", {".x", ".y", ".z"}});
+        return values;
+    }();
+    return with_lights;
 }
 
 Precision Emitter::precision(const Layer& layer) const {

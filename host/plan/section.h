@@ -153,6 +153,14 @@ struct LightEnd {
     bool spread = false;   ///< the covariance of the slopes is known
 };
 Section emit_lighting(Emitter& emitter, const LightEnd& end);
+/// A radiance that lighting needs of every normal: the value that holds it, and the text that computes it, with {p},
+/// {n} and {roughness} for what stands there.
+struct LitTerm {
+    std::string value, call;
+
+    std::string of(const std::string& p, const std::string& n, const std::string& roughness) const;
+};
+std::vector<LitTerm> lit_terms(const Emitter& emitter);
 /// Kernel text that declares v, albedo and roughness of the pixel.
 std::string lit_surface_text(Emitter& emitter, Section& section);
 /// Kernel text that declares roughness alone.

@@ -5,13 +5,14 @@
 
 #include "base/vec.h"
 #include "io/object_ids.h"
+#include "plan/light_pictures.h"
 
 namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 12 * sizeof(double) &&
-                  sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 10 * sizeof(double),
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 13 * sizeof(double) &&
+                  sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 35 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
 void put(double (&to)[3], const Vec3& from) { std::copy(from.begin(), from.end(), to); }
@@ -41,6 +42,28 @@ wr_light fill_light(const Light& light, const Vec3& eye) {
     out.cos_outer = std::cos(light.outer_angle);
     out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
     return out;
+}
+
+/// Adds the irradiance / pi of a sky as coefficients of wr_sky's polynomials. Its radiance depends on the elevation
+/// only, so the harmonics are zonal: c_l = (integral of radiance P_l over the sine) and the factors of a clamped cosine
+/// [Ramamoorthi and Hanrahan 2001] make them c_0 / 2 + c_1 t + 5/8 c_2 P_2(t), t the cosine to the zenith.
+void add_sky(double (&sky)[27], const Light& light) {
+    const Vec3 up = normalize(light.up);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double horizon = light.horizon[c] * light.intensity, ground = light.ground[c] * light.intensity;
+        const double rise = light.zenith[c] * light.intensity - horizon;
+        const double once = horizon / 2 + rise / 3 - ground / 2, twice = 5.0 / 8 * rise / 8;
+        const double terms[] = {(horizon + rise / 2 + ground) / 2,
+                                once * up[0],
+                                once * up[1],
+                                once * up[2],
+                                3 * twice * up[0] * up[1],
+                                3 * twice * up[1] * up[2],
+                                3 * twice * up[2] * up[0],
+                                0.75 * twice * (up[0] * up[0] - up[1] * up[1]),
+                                0.25 * twice * (3 * up[2] * up[2] - 1)};
+        for (std::size_t k = 0; k < 9; ++k) sky[3 * k + c] += terms[k];
+    }
 }
 
 Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_world[2][3]}; }
@@ -174,13 +197,24 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
         for (const std::uint32_t row : table.order)
             out.projectors.push_back(masked_projector(table, row, signed_scale(layers.at(table.layer)), eye));
     const Lighting& lighting = source.scene.lighting;
-    for (const Light& light : lighting.lights) out.lights.push_back(fill_light(light, eye));
-    put(out.lighting.ambient, lighting.ambient);
+    const std::vector<std::string> pictures = pictures_of(lighting);
+    std::copy(lighting.ambient.begin(), lighting.ambient.end(), out.lighting.sky);
+    for (const Light& light : lighting.lights) {
+        if (light.kind == LightKind::sky) {
+            add_sky(out.lighting.sky, light);
+            continue;
+        }
+        out.lights.push_back(fill_light(light, eye));
+        out.lights.back().picture = static_cast<double>(picture_number(pictures, light));
+    }
+    // A sky that nobody has told of gives half of what a sun does at most: what is darker is taken for shadow.
+    const bool dark = std::ranges::all_of(out.lighting.sky, [](double k) { return k == 0; });
+    out.lighting.shadow = dark ? 0.5 : 0;
     put(out.lighting.albedo, lighting.albedo);
     out.lighting.roughness = lighting.roughness;
     out.lighting.f0 = lighting.f0;
     out.lighting.max_ratio = lighting.max_ratio;
-    out.lighting.lights = static_cast<double>(lighting.lights.size());
+    out.lighting.lights = static_cast<double>(out.lights.size());
     return out;
 }
 

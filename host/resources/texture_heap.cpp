@@ -135,9 +135,8 @@ Image products(const Image& slopes) {
 Image covariance(Image means_of_products, const Image& means) {
     const Image of_means = products(means);
     for (std::size_t i = 0; i < of_means.texels.size(); ++i)
-        means_of_products.texels[i] = i % 3 == 1
-                                          ? means_of_products.texels[i] - of_means.texels[i]
-                                          : std::max(means_of_products.texels[i] - of_means.texels[i], 0.0f);
+        means_of_products.texels[i] = i % 3 == 1 ? means_of_products.texels[i] - of_means.texels[i]
+                                                 : std::max(means_of_products.texels[i] - of_means.texels[i], 0.0f);
     return means_of_products;
 }
 

@@ -14,6 +14,11 @@ void read_color(Table& table, Light& light) {
     table.read("intensity", light.intensity, not_negative);
 }
 
+/// Whether there is one is compiled in; lights without come and go.
+void read_picture(Table& table, Light& light) {
+    if (!table.visits() || !light.picture.empty()) table.read("picture", light.picture);
+}
+
 void read_position(Table& table, Light& light) {
     table.require("position");
     table.read("position", light.position);
@@ -26,21 +31,37 @@ void read_direction(Table& table, Light& light) {
     light.direction = normalize(light.direction);
 }
 
+void read_sky(Table& table, Light& light) {
+    light.kind = LightKind::sky;
+    if (table.read("up", light.up) && light.up == Vec3{})
+        table.complain("up", "must not be zero; it is where the zenith is");
+    light.up = normalize(light.up);
+    table.require("zenith");
+    table.read("zenith", light.zenith, not_negative);
+    light.horizon = table.visits() ? light.horizon : light.zenith;
+    table.read("horizon", light.horizon, not_negative);
+    table.read("ground", light.ground, not_negative);
+    table.read("intensity", light.intensity, not_negative);
+}
+
 void read_sun(Table& table, Light& light) {
     light.kind = LightKind::sun;
     read_color(table, light);
+    read_picture(table, light);
     read_direction(table, light);
 }
 
 void read_point(Table& table, Light& light) {
     light.kind = LightKind::point;
     read_color(table, light);
+    read_picture(table, light);
     read_position(table, light);
 }
 
 void read_spot(Table& table, Light& light) {
     light.kind = LightKind::spot;
     read_color(table, light);
+    read_picture(table, light);
     read_position(table, light);
     read_direction(table, light);
     table.read_degrees("inner_angle", light.inner_angle, {.low = 0, .high = 180});
@@ -54,7 +75,7 @@ void read_spot(Table& table, Light& light) {
     }
 }
 
-constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spot", read_spot}};
+constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spot", read_spot}, {"sky", read_sky}};
 
 }  // namespace
 
@@ -71,6 +92,7 @@ void read_light(Table& table, Light& out) {
 
 void read_lighting(Table& table, Lighting& out) {
     table.choose("relight", out.relight, {{"off", Relight::off}, {"lit", Relight::lit}, {"ratio", Relight::ratio}});
+    table.choose("shadows", out.shadows, {{"read", Shadows::read}, {"ignored", Shadows::ignored}});
     table.read("ambient", out.ambient, not_negative);
     table.read("albedo", out.albedo, zero_to_one);
     table.read("roughness", out.roughness, zero_to_one);

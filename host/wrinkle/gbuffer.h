@@ -19,6 +19,7 @@
 ///   bitangent   bitangent.x .y .z                  world; instead of tangent_sign
 ///   albedo      albedo.r .g .b                     diffuse reflectance, linear
 ///   roughness   roughness                          perceptual, GGX alpha = roughness^2
+///   metallic    metallic                           1 where the surface is metal
 ///   beauty      beauty.r .g .b                     the finished picture, linear
 ///   cryptomatte crypto.id0 crypto.coverage0 ...    ranked pairs; id is float bits
 /// Any other channel of the file is the plane "channel:NAME".

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "wrinkle/camera.h"
@@ -12,7 +13,7 @@
 /// Threads: values, used as any other: read by several at once, or changed by one.
 namespace [[gnu::visibility("default")]] wrinkle {
 
-enum class LightKind { sun, point, spot };
+enum class LightKind { sun, point, spot, sky };
 
 struct Light {
     LightKind kind = LightKind::sun;
@@ -21,18 +22,30 @@ struct Light {
     Vec3 position{};                              ///< world; point, spot
     Vec3 direction{0, 0, -1};                     ///< the way the light travels; sun, spot
     double inner_angle = 0.4, outer_angle = 0.6;  ///< radians from the axis; spot
+    /// Layer of the frame that shows this light's share of the picture alone; empty: none does. sun, point, spot
+    std::string picture{};
+    Vec3 up{0, 0, 1};          ///< sky: where the zenith is
+    Vec3 zenith{}, horizon{};  ///< sky: radiance, between them linear in the sine of the elevation (times intensity)
+    Vec3 ground{};             ///< sky: radiance below the horizon
 };
 
 enum class Relight { off, lit, ratio };
 
+/// How a picture that is relit tells where a light reaches that has no picture of its own.
+enum class Shadows {
+    ignored,  ///< it does not: all light of the picture is shared out as if no light was shadowed, in any unit
+    read      ///< off the picture, for lights in its units: what it shows beside the sky's, over what they would give
+};
+
 struct Lighting {
     Relight relight = Relight::off;
-    Vec3 ambient{0, 0, 0};
-    Vec3 albedo{0.5, 0.5, 0.5};  ///< where the G-buffer has none
-    double roughness = 0.5;      ///< where the G-buffer has none
-    double f0 = 0.04;            ///< specular reflectance at normal incidence
-    double max_ratio = 4;        ///< bound of lit(new)/lit(old), and 1/bound below
-    double exposure = 0;         ///< stops, of the PNG only
+    Shadows shadows = Shadows::ignored;  ///< Relight::ratio
+    Vec3 ambient{0, 0, 0};               ///< radiance from all around, beside that of skies
+    Vec3 albedo{0.5, 0.5, 0.5};          ///< where the G-buffer has none
+    double roughness = 0.5;              ///< where the G-buffer has none
+    double f0 = 0.04;                    ///< specular reflectance at normal incidence
+    double max_ratio = 4;                ///< bound of lit(new)/lit(old), and 1/bound below
+    double exposure = 0;                 ///< stops, of the PNG only
     std::vector<Light> lights;
 };
 

@@ -15,6 +15,11 @@ inline Lighting test_lighting() {
     lighting.lights = {{LightKind::sun, {1, 0.5, 0.25}, 2, {}, {0, 0, -1}, 0, 0},
                        {LightKind::point, {0.5, 1, 1}, 8, {2, -1, 3}, {0, 0, -1}, 0, 0},
                        {LightKind::spot, {1, 1, 0.5}, 16, {-2, 1, 4}, {0, 0, -1}, 0.25, 0.75}};
+    lighting.lights[1].picture = "lamp";
+    Light sky{.kind = LightKind::sky};
+    sky.intensity = 0.5, sky.up = {0.36, -0.48, 0.8};
+    sky.zenith = {0.25, 0.5, 1}, sky.horizon = {0.75, 0.75, 0.5}, sky.ground = {0.25, 0.125, 0};
+    lighting.lights.push_back(sky);
     return lighting;
 }
 
@@ -29,7 +34,7 @@ inline Cases lighting_cases() {
     Scene scene;
     scene.lighting = lighting;
     const FrameConstants constants = frame_constants({}, {scene, {}}, at_origin, {8, 8});
-    const double *first = constants.lighting.ambient, *light = &constants.lights[0].kind;
+    const double *first = constants.lighting.sky, *light = &constants.lights[0].kind;
     c.data.constants.assign(first, first + sizeof(wr_lighting) / sizeof(double));
     c.data.constants.insert(c.data.constants.end(), light,
                             light + constants.lights.size() * sizeof(wr_light) / sizeof(double));
@@ -50,7 +55,10 @@ inline Cases lighting_cases() {
         if (dot(m, v) < 0) m = m * -1.0L;  // the surface that carries the bumps faces the viewer
         c.in("m", m);
         c.out("lit", reference::lit(lighting, normalize(n), normalize(m), normalize(v), p, surface));
-        c.out("base", reference::lit(lighting, normalize(m), normalize(v), p, surface));
+        const V bare = normalize(m), view = normalize(v);
+        c.out("lamp", reference::lit_by("lamp", lighting, normalize(n), bare, view, p, surface));
+        c.out("base", reference::lit_by("lamp", lighting, bare, bare, view, p, surface));
+        c.out("sky", reference::sky_light(lighting, normalize(n), bare));
     }
     return c;
 }

@@ -71,7 +71,7 @@ TEST(Constants, RoughnessHasAFloorAndTheRatioABias) {
     wr_light sun{};
     sun.color[0] = sun.to_light[2] = 1;
     ColumnData data;
-    data.constants.assign(lighting.ambient, lighting.ambient + sizeof lighting / sizeof(double));
+    data.constants.assign(lighting.sky, lighting.sky + sizeof lighting / sizeof(double));
     data.constants.insert(data.constants.end(), &sun.kind, &sun.kind + sizeof sun / sizeof(double));
     const Results r = over({0, 0.03f, 0.5f}, {"lit.x", "wr_relight_ratio(v * 0, v * 0, 4)"}, body, data);
     EXPECT_EQ(r[0][0], r[0][1]);

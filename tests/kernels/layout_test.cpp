@@ -101,13 +101,15 @@ TEST(Layout, Light) {
     const auto s = counted<wr_light>();
     std::vector<Member> members;
     MEMBER(kind), MEMBER(color), MEMBER(position), MEMBER(to_light), MEMBER(cos_inner), MEMBER(cos_outer);
+    MEMBER(picture);
     check_layout("wr_light", members, sizeof s);
 }
 
 TEST(Layout, Lighting) {
     const auto s = counted<wr_lighting>();
     std::vector<Member> members;
-    MEMBER(ambient), MEMBER(albedo), MEMBER(roughness), MEMBER(f0), MEMBER(max_ratio), MEMBER(lights);
+    MEMBER(sky), MEMBER(albedo), MEMBER(roughness), MEMBER(f0), MEMBER(max_ratio), MEMBER(lights);
+    MEMBER(shadow);
     check_layout("wr_lighting", members, sizeof s);
 }
 

@@ -125,14 +125,25 @@ public:
         if (frame_.has("albedo.r")) surface.albedo = rgb("albedo", i);
         if (frame_.has("roughness")) surface.roughness = frame_.plane("roughness")[i];
         const Vec<T> world = e.position + frame_.rays().eye();
-        const Vec<T> now = lit(lighting, e.normal, e.base_normal, e.view, world, surface);
-        if (!ratio) return now;
+        if (!ratio) return lit(lighting, e.normal, e.base_normal, e.view, world, surface);
+        const auto part = [&](const std::string& picture) {
+            return typename Relit<T>::Part{
+                picture.empty() ? Vec<T>{} : rgb("channel:" + picture, i, "RGB"),
+                lit_by(picture, lighting, e.normal, e.base_normal, e.view, world, surface),
+                lit_by(picture, lighting, e.base_normal, e.base_normal, e.view, world, surface)};
+        };
+        Relit<T> relit{
+            beauty,
+            {},
+            part(""),
+            {{}, sky_light(lighting, e.normal, e.base_normal), sky_light(lighting, e.base_normal, e.base_normal)}};
+        for (const std::string& picture : pictures(lighting))
+            if (!picture.empty()) relit.own.push_back(part(picture));
+        const Vec<T> picture = relit.picture(lighting, surface.albedo);
         const Vec<T> a = surface.albedo;
-        if (frame_.has("albedo.r") && !(std::max({a.x, a.y, a.z}) > T(1) / 1000)) return beauty;  // metal
-        const Vec<T> old = lit(lighting, e.base_normal, e.view, world, surface);
-        const T bound = lighting.max_ratio;
-        return {relight_ratio(beauty.x, now.x, old.x, bound), relight_ratio(beauty.y, now.y, old.y, bound),
-                relight_ratio(beauty.z, now.z, old.z, bound)};
+        T metal = frame_.has("albedo.r") && std::max({a.x, a.y, a.z}) <= T(1) / 1000 ? T(1) : T(0);
+        if (frame_.has("metallic")) metal = std::clamp(T(frame_.plane("metallic")[i]), T(0), T(1));
+        return picture * (1 - metal) + beauty * metal;
     }
 
 private:
@@ -192,8 +203,9 @@ private:
         return std::visit(reads, layer.bump) || (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
     }
 
-    Vec<T> rgb(const std::string& role, std::size_t i) const {
-        return {T(frame_.plane(role + ".r")[i]), T(frame_.plane(role + ".g")[i]), T(frame_.plane(role + ".b")[i])};
+    Vec<T> rgb(const std::string& layer, std::size_t i, const char* names = "rgb") const {
+        const auto plane = [&](int k) { return T(frame_.plane(layer + "." + names[k])[i]); };
+        return {plane(0), plane(1), plane(2)};
     }
 
     Scene scene_;

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+
 #include "tests/reference/vec.h"
 #include "wrinkle/scene.h"
 
@@ -85,14 +90,75 @@ Arrival<T> arrival(const Light& light, Vec<T> p) {
     return {l, power * (t * t * (3 - 2 * t) / r2)};
 }
 
-/// albedo * ambient + sum over the lights of (albedo / pi max(n.l, 0) + specular of the mirroring normal) * irradiance
-/// * terminator. v is unit, p is the world position, base the normal of the surface that carries the bumps.
+/// The different pictures of lights, and "".
+inline std::set<std::string> pictures(const Lighting& lighting) {
+    std::set<std::string> all{""};
+    for (const Light& light : lighting.lights) all.insert(light.picture);
+    return all;
+}
+
+/// Radiance of a sky from the direction d.
 template <class T>
-Vec<T> lit(const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p, const Surface<T>& s) {
+Vec<T> sky_radiance(const Light& sky, Vec<T> d) {
+    const T sine = dot(d, normalize(from_array<T>(sky.up))), intensity = sky.intensity;
+    if (sine < 0) return from_array<T>(sky.ground) * intensity;
+    return (from_array<T>(sky.horizon) * (1 - sine) + from_array<T>(sky.zenith) * sine) * intensity;
+}
+
+/// Irradiance / pi of the sky on a surface with the normal n: its radiance projected onto real spherical harmonics of
+/// order 2, each times its factor of the clamped cosine, pi, 2 pi / 3 and pi / 4 [Ramamoorthi and Hanrahan 2001]; and
+/// of that the share of directions which the base does not hide, (1 + n.base) / 2. The projection is a sum that is
+/// exact for radiance which is linear in the sine of the elevation, above the horizon and below.
+template <class T>
+Vec<T> sky_light(const Lighting& lighting, Vec<T> n, Vec<T> base) {
+    constexpr T pi = std::numbers::pi_v<T>;
+    const auto harmonics = [&](Vec<T> d) {
+        const T one = std::sqrt(3 / (4 * pi)), two = std::sqrt(15 / (4 * pi));
+        return std::array<T, 9>{std::sqrt(1 / (4 * pi)),
+                                one * d.x,
+                                one * d.y,
+                                one * d.z,
+                                two * d.x * d.y,
+                                two * d.y * d.z,
+                                two * d.z * d.x,
+                                two / 2 * (d.x * d.x - d.y * d.y),
+                                std::sqrt(5 / (16 * pi)) * (3 * d.z * d.z - 1)};
+    };
+    Vec<T> sum = from_array<T>(lighting.ambient);
+    const std::array<T, 9> of_normal = harmonics(n);
+    for (const Light& light : lighting.lights) {
+        if (light.kind != LightKind::sky) continue;
+        const Vec<T> up = normalize(from_array<T>(light.up));
+        const Vec<T> x = normalize(cross(up, std::abs(up.x) < T(1) / 2 ? Vec<T>{1, 0, 0} : Vec<T>{0, 1, 0}));
+        const Vec<T> y = cross(up, x);
+        const T node = std::sqrt(T(3) / 5) / 2;  // Gauss and Legendre, three points
+        const std::pair<T, T> nodes[] = {
+            {T(1) / 2 - node, T(5) / 18}, {T(1) / 2, T(4) / 9}, {T(1) / 2 + node, T(5) / 18}};
+        constexpr int turns = 8;
+        for (const auto& [at, weight] : nodes)
+            for (const int side : {-1, 1})
+                for (int turn = 0; turn < turns; ++turn) {
+                    const T sine = side * at, cosine = std::sqrt(1 - sine * sine), angle = 2 * pi * turn / turns;
+                    const Vec<T> d = up * sine + (x * std::cos(angle) + y * std::sin(angle)) * cosine;
+                    const std::array<T, 9> of_sky = harmonics(d);
+                    T kernel = of_sky[0] * of_normal[0];
+                    for (int k = 1; k < 9; ++k) kernel += of_sky[k] * of_normal[k] * (k < 4 ? T(2) / 3 : T(1) / 4);
+                    sum = sum + sky_radiance(light, d) * (kernel * weight * 2 * pi / turns);
+                }
+    }
+    return sum * ((1 + dot(n, base)) / 2);
+}
+
+/// The sum over the lights of one picture (of "": those without) of (albedo / pi max(n.l, 0) + specular of the
+/// mirroring normal) * irradiance * terminator.
+template <class T>
+Vec<T> lit_by(const std::string& picture, const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p,
+              const Surface<T>& s) {
     const auto times = [](Vec<T> a, Vec<T> b) { return Vec<T>{a.x * b.x, a.y * b.y, a.z * b.z}; };
-    Vec<T> sum = times(s.albedo, from_array<T>(lighting.ambient));
+    Vec<T> sum;
     const Vec<T> mirror = mirror_normal(n, base, v);
     for (const Light& light : lighting.lights) {
+        if (light.kind == LightKind::sky || light.picture != picture) continue;
         const Arrival<T> a = arrival(light, p);
         const T nl = std::max(dot(n, a.direction), T(0)), ml = std::max(dot(mirror, a.direction), T(0));
         const T specular = ml > 0 ? ml * mirrored(mirror, v, a.direction, s) : T(0);
@@ -102,17 +168,73 @@ Vec<T> lit(const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p, 
     return sum;
 }
 
+/// albedo * sky + all lights. v is unit, p is the world position, base the normal of the surface that carries the
+/// bumps.
+template <class T>
+Vec<T> lit(const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p, const Surface<T>& s) {
+    const auto times = [](Vec<T> a, Vec<T> b) { return Vec<T>{a.x * b.x, a.y * b.y, a.z * b.z}; };
+    Vec<T> sum = times(s.albedo, sky_light(lighting, n, base));
+    for (const std::string& picture : pictures(lighting)) sum = sum + lit_by(picture, lighting, n, base, v, p, s);
+    return sum;
+}
+
 /// The same of a surface without bumps.
 template <class T>
 Vec<T> lit(const Lighting& lighting, Vec<T> n, Vec<T> v, Vec<T> p, const Surface<T>& s) {
     return lit(lighting, n, n, v, p, s);
 }
 
-/// beauty * clamp((new + 1e-4) / (old + 1e-4), 1 / max_ratio, max_ratio), one channel.
+/// clamp((new + 1e-4) / (old + 1e-4), 1 / max_ratio, max_ratio), of one channel.
 template <class T>
-T relight_ratio(T beauty, T lit_new, T lit_old, T max_ratio) {
+T relight_ratio(T lit_new, T lit_old, T max_ratio) {
     const T small = T(1) / 10000;
-    return beauty * std::clamp((lit_new + small) / (lit_old + small), 1 / max_ratio, max_ratio);
+    return std::clamp((lit_new + small) / (lit_old + small), 1 / max_ratio, max_ratio);
 }
+
+/// What relighting knows of a pixel: its picture, those of lights, and what lights and sky give with the bumped and
+/// with the base normal.
+template <class T>
+struct Relit {
+    struct Part {
+        Vec<T> picture, now, old;
+    };
+    Vec<T> beauty;
+    std::vector<Part> own;  ///< lights with pictures
+    Part others, sky;       ///< lights without (no picture), and the irradiance / pi of the sky
+
+    /// Every light's own picture times its ratio; of the rest, what lights without pictures can give where the picture
+    /// shows that they reach it times theirs, and all else times the sky's.
+    Vec<T> picture(const Lighting& lighting, Vec<T> albedo) const {
+        const auto each = [](auto&& of) { return Vec<T>{of(&Vec<T>::x), of(&Vec<T>::y), of(&Vec<T>::z)}; };
+        const auto times_ratio = [&](Vec<T> a, const Part& part) {
+            return each([&](auto c) { return a.*c * relight_ratio(part.now.*c, part.old.*c, T(lighting.max_ratio)); });
+        };
+        Vec<T> rest = beauty, result;
+        for (const Part& part : own) {
+            const Vec<T> shown = each([&](auto c) { return std::max(part.picture.*c, T(0)); });
+            rest = rest - shown, result = result + times_ratio(shown, part);
+        }
+        // What lights' pictures show beyond the beauty is not taken from it twice.
+        const Vec<T> over = each([&](auto c) { return std::min(rest.*c, T(0)); });
+        rest = rest - over, result = result + over;
+        const auto sky_now = each([&](auto c) { return albedo.*c * sky.now.*c; });
+        const auto sky_old = each([&](auto c) { return albedo.*c * sky.old.*c; });
+        if (lighting.shadows == Shadows::ignored) {
+            result = result + times_ratio(rest, {{}, others.now + sky_now, others.old + sky_old});
+        } else {
+            const Vec<T> beyond = rest - sky_old;
+            const T given = others.old.x + others.old.y + others.old.z;
+            const bool dark =
+                std::ranges::none_of(lighting.lights, [](const Light& l) { return l.kind == LightKind::sky; }) &&
+                lighting.ambient == Vec3{};
+            const T least = dark ? T(1) / 2 : T(0);
+            const T share = given > 0 ? ((beyond.x + beyond.y + beyond.z) / given - least) / (1 - least) : T(0);
+            const T reached = std::clamp(share, T(0), T(1));
+            const Vec<T> lamps = each([&](auto c) { return std::min(others.old.*c * reached, rest.*c); });
+            result = result + times_ratio(lamps, others) + times_ratio(rest - lamps, sky);
+        }
+        return each([&](auto c) { return std::max(result.*c, std::min(beauty.*c, T(0))); });
+    }
+};
 
 }  // namespace wrinkle::reference

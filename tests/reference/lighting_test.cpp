@@ -84,11 +84,46 @@ TEST(Lighting, BumpsAreDarkBehindTheSurfaceAndNeverMirrorWhatIsBelowIt) {
     }
 }
 
+TEST(Lighting, SkyOfOneColourLightsAllNormalsAlike) {
+    Lighting lighting;
+    Light sky{.kind = LightKind::sky};
+    sky.zenith = sky.horizon = sky.ground = {1, 2, 3}, sky.intensity = 2;
+    lighting.lights = {sky};
+    for (int i = 0; i < 20; ++i) {
+        const V n = on_hemisphere(i / 20.0L, i * 1.1L);
+        EXPECT_LE(length(sky_light(lighting, n, n) - V{2, 4, 6}), 1e-15L);
+        EXPECT_LE(
+            length(sky_light(lighting, n, on_hemisphere(0, i * 1.1L)) - V{1, 2, 3} * (1 + std::sqrt(1 - n.z * n.z))),
+            1e-15L);
+    }
+    // A sky that is dark below: half of it reaches an upright wall. Order 2 is exact for that.
+    lighting.lights[0].ground = {};
+    EXPECT_NEAR(sky_light(lighting, V{1, 0, 0}, V{1, 0, 0}).x, 1, 1e-15L);
+    EXPECT_NEAR(sky_light(lighting, V{0, 0, 1}, V{0, 0, 1}).x, 2, 1e-15L);
+}
+
 TEST(Lighting, RatioIsBounded) {
-    EXPECT_EQ(relight_ratio(2.0L, 1.0L, 1.0L, 4.0L), 2);
-    EXPECT_EQ(relight_ratio(2.0L, 1.0L, 0.0L, 4.0L), 8);
-    EXPECT_EQ(relight_ratio(2.0L, 0.0L, 1.0L, 4.0L), 0.5L);
-    EXPECT_EQ(relight_ratio(2.0L, 0.0L, 0.0L, 4.0L), 2);
+    EXPECT_EQ(relight_ratio(1.0L, 1.0L, 4.0L), 1);
+    EXPECT_EQ(relight_ratio(1.0L, 0.0L, 4.0L), 4);
+    EXPECT_EQ(relight_ratio(0.0L, 1.0L, 4.0L), 0.25L);
+    EXPECT_EQ(relight_ratio(0.0L, 0.0L, 4.0L), 1);
+}
+
+TEST(Lighting, PicturesChangeByWhatTheyShowOfALight) {
+    Lighting lighting;
+    lighting.ambient = {0.25, 0.25, 0.25};
+    lighting.max_ratio = 100;
+    const V one{1, 1, 1};
+    Relit<real> relit{one, {}, {{}, one, one * 0.5L}, {{}, one * 0.25L, one * 0.25L}};
+    // Albedo 1: of the picture .25 is the sky's, .5 the lamps' (all of what they give), which doubles.
+    EXPECT_NEAR(relit.picture(lighting, one).x, 1.5L, 1e-3L);
+    relit.beauty = one * 0.25L;  // in their shadow
+    EXPECT_NEAR(relit.picture(lighting, one).x, 0.25L, 1e-15L);
+    relit.beauty = one, relit.others = {};
+    relit.own = {{one * 0.75L, one, one * 0.5L}};
+    EXPECT_NEAR(relit.picture(lighting, one).x, 1.75L, 1e-3L);
+    relit.own[0].now = relit.own[0].old, relit.own[0].picture = one * 3.0L;  // shows more than there is
+    EXPECT_NEAR(relit.picture(lighting, one).x, 1, 1e-15L);
 }
 
 }  // namespace
