@@ -89,7 +89,7 @@ using PlannedEyePlace = std::function<EyePlace(const NumberSource&)>;
 /// A texture as kernels sample it.
 enum class TexelKind {
     slope,
-    moments,  ///< the squares and the product of slopes
+    moments,  ///< covariances of the slopes that a texel has averaged: ss, st, tt
     height,
     mask,
     vector,

@@ -1,4 +1,7 @@
 // sources/noise_family.clh, sources/cellular.clh: what functions_test.cpp does not test.
+#include <cmath>
+#include <random>
+
 #include "tests/cases/noise.h"
 #include "tests/kernels/check.h"
 #include "tests/reference/noise_means.h"
@@ -73,6 +76,50 @@ TEST(NoiseFamily, MeansAreThoseOfTheReference) {
         EXPECT_FLOAT_EQ(static_cast<float>(got[3][0]), static_cast<float>(want.slope)) << basis;
         EXPECT_FLOAT_EQ(static_cast<float>(got[4][0]), static_cast<float>(want.magnitude_slope)) << basis;
         EXPECT_FLOAT_EQ(static_cast<float>(got[5][0]), static_cast<float>(want.square_slope)) << basis;
+    }
+}
+
+/// The share of the variance of a noise's gradient that lies within squares `side` cells wide, anywhere and anyhow
+/// turned, along their sides; measured at 8 x 8 points of each.
+double share_within(const NoiseLayer& layer, double side) {
+    constexpr int kSquares = 300, kPoints = 8;
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> along(0, 100);
+    std::normal_distribution<double> any;
+    const auto noise = reference::octave_noise<double>(layer);
+    using V3 = reference::Vec<double>;
+    double all = 0, within = 0;
+    for (int square = 0; square < kSquares; ++square) {
+        const V3 corner{along(engine), along(engine), along(engine)};
+        const V3 n = normalize(V3{any(engine), any(engine), any(engine)});
+        const V3 s = normalize(cross(n, V3{any(engine), any(engine), any(engine)})), t = cross(n, s);
+        double sum[2]{}, squares[2]{};
+        for (int k = 0; k < kPoints * kPoints; ++k) {
+            const double x = (k % kPoints + 0.5) / kPoints, y = (k / kPoints + 0.5) / kPoints;
+            const V3 g = noise(0, corner + s * (side * x) + t * (side * y)).gradient;
+            const double parts[]{dot(g, s), dot(g, t)};
+            for (int c = 0; c < 2; ++c) sum[c] += parts[c], squares[c] += parts[c] * parts[c];
+        }
+        for (int c = 0; c < 2; ++c) {
+            all += squares[c];
+            within += squares[c] - sum[c] * sum[c] / (kPoints * kPoints);
+        }
+    }
+    return within / all;
+}
+
+TEST(NoiseFamily, GrainTellsWhatLiesWithinAPixel) {
+    NoiseLayer layer;
+    for (int basis = 0; basis < 6; ++basis) {
+        layer.type = static_cast<NoiseType>(std::min(basis, 3));
+        layer.feature = static_cast<CellFeature>(std::max(basis - 3, 0));
+        const Results got =
+            run_kernel({fmt::format("wr_noise_means m = wr_noise_mean((wr_noise){{.basis = {}}});", basis),
+                        {"(wr_real)(m.grain)"}},
+                       {{"unused", {0}}}, {1, false});
+        const double grain = got[0][0];
+        EXPECT_NEAR(0.0625 / (0.0625 + grain), share_within(layer, 0.25), 0.06) << basis;
+        EXPECT_NEAR(0.25 / (0.25 + grain), share_within(layer, 0.5), 0.12) << basis;
     }
 }
 
