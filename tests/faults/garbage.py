@@ -82,12 +82,14 @@ for geometry in ("depth", "position"):
         write_exr(f"{place}/frame.exr", garbage(seed, geometry))
         with open(f"{place}/scene.toml", "w") as out:
             out.write(f'[gbuffer]\nfile = "frame.exr"\ngeometry = "{geometry}"\n{CAMERA}{layers}')
-        run = subprocess.run(["oclgrind", "--data-races", "--build-options", "-Drestrict=", wrinkle, "run", f"{place}/scene.toml", "-o", f"{place}/out",
+        run = subprocess.run(["oclgrind", "--data-races", wrinkle, "run", f"{place}/scene.toml", "-o", f"{place}/out",
                               "--lanes", "1", "--device", "Oclgrind"], capture_output=True, text=True,
                              env=dict(os.environ, WRINKLE_CACHE_DIR=f"{place}/cache"))
         said = run.stdout + run.stderr
         found = [line for line in said.splitlines() if "Invalid" in line or "race" in line]
-        if run.returncode != 0 or found:
+        if "llvm.experimental.noalias" in said:  # that LLVM's inliner leaves behind, and Debian 12's Oclgrind lacks
+            print(f"{geometry}, {name}: not run, Oclgrind cannot load its kernel")
+        elif run.returncode != 0 or found:
             bad += 1
             print(f"{geometry}, {name}: exit {run.returncode}; " + "; ".join(found[:3] or said.splitlines()[-3:]))
         else:
