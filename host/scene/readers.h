@@ -15,8 +15,8 @@ toml::table parse_scene_file(const std::filesystem::path& file);
 Scene load_scene(LayerKinds kinds, const std::filesystem::path& file);
 Figure load_figure(LayerKinds kinds, const std::filesystem::path& file);
 
-/// A scene of text in memory, which `name` calls it in messages; relative paths are relative to `folder`. A scene without
-/// [gbuffer] is for those who give passes planes of their own.
+/// A scene of text in memory, which `name` calls it in messages; relative paths are relative to `folder`. A scene
+/// without [gbuffer] is for those who give passes planes of their own.
 Scene parse_scene(LayerKinds kinds, std::string_view text, const std::string& name,
                   const std::filesystem::path& folder);
 

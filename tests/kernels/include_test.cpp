@@ -64,7 +64,8 @@ TEST(KernelFiles, BuildFromTheFolderOnTheDevice) {
         "kernel void own(global float *out) { vec3 v = 1; out[0] = v.x + wr_lane(wr_zero3().x, 0); }\n";
     for (const int lanes : {1, 16}) {
         cl::Program program(device.context, text);
-        const std::string flags = fmt::format("-cl-std=CL1.2 -D WR_LANES={} -I {}", lanes, WRINKLE_SOURCE_DIR "/kernels");
+        const std::string flags =
+            fmt::format("-cl-std=CL1.2 -D WR_LANES={} -I {}", lanes, WRINKLE_SOURCE_DIR "/kernels");
         EXPECT_NO_THROW(program.build(device.device, flags.c_str()))
             << program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device);
     }
