@@ -32,7 +32,7 @@ Names layers(std::initializer_list<std::pair<const char*, const char*>> parts) {
 }
 
 TEST(Roles, EveryRoleHasThePlanesOfTheContract) {
-    EXPECT_EQ(gbuffer_roles().size(), 16u);
+    EXPECT_EQ(gbuffer_roles().size(), 17u);
     EXPECT_EQ(gbuffer_roles().front().planes, (Names{"position.x", "position.y", "position.z"}));
 }
 
