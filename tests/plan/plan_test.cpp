@@ -90,7 +90,7 @@ TEST(Plan, ListsSectionsByStage) {
     }
     EXPECT_EQ(stages, (std::vector<int>{0, 0, 0, 1, 1, 1, 1}));
     EXPECT_EQ(plan.sections[5].planes,
-              (Names{"albedo.b", "albedo.g", "albedo.r", "beauty.b", "beauty.g", "beauty.r", "roughness"}));
+              (Names{"albedo.b", "albedo.g", "albedo.r", "beauty.b", "beauty.g", "beauty.r", "metallic", "roughness"}));
     EXPECT_EQ(plan.kernels.size(), 1u);
     PlanOptions split;
     split.split = true;

@@ -113,6 +113,7 @@ TEST(Lighting, PicturesChangeByWhatTheyShowOfALight) {
     Lighting lighting;
     lighting.ambient = {0.25, 0.25, 0.25};
     lighting.max_ratio = 100;
+    lighting.shadows = Shadows::read;
     const V one{1, 1, 1};
     Relit<real> relit{one, {}, {{}, one, one * 0.5L}, {{}, one * 0.25L, one * 0.25L}};
     // Albedo 1: of the picture .25 is the sky's, .5 the lamps' (all of what they give), which doubles.
