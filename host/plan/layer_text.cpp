@@ -90,7 +90,8 @@ std::string LayerText::textured(const TextureUse& use, const char* declared) {
         loses = true;
         text += fmt::format(
             "        wr_texture moments = wr_texture_at(texels, textures, {0});\n"
-            "        wr_vec3 lost = wr_texture_sample3(moments, {1}(c.st.x), {1}(c.st.y), {2});\n",
+            "        wr_vec3 lost = wr_lost_spread(wr_texture_sample3(moments, {1}(c.st.x), {1}(c.st.y), {2}), "
+            "slope);\n",
             emitter.texture(use, TexelKind::moments), wrap, level);
     }
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});

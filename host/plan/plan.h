@@ -89,7 +89,7 @@ using PlannedEyePlace = std::function<EyePlace(const NumberSource&)>;
 /// A texture as kernels sample it.
 enum class TexelKind {
     slope,
-    moments,  ///< covariances of the slopes that a texel has averaged: ss, st, tt
+    moments,  ///< the squares and the product of slopes
     height,
     mask,
     vector,

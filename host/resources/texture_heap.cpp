@@ -119,7 +119,8 @@ void append(TextureHeap& heap, const Image& level, Wrap wrap) {
         }
 }
 
-/// The squares of two slopes and their product.
+/// The squares of two slopes and their product. Their means give the covariance of the slopes that a level has
+/// averaged.
 Image products(const Image& slopes) {
     Image out{slopes.width, slopes.height, 3, {}};
     out.texels.reserve(slopes.texels.size() / 2 * 3);
@@ -130,16 +131,6 @@ Image products(const Image& slopes) {
     return out;
 }
 
-/// The covariance of the slopes that a level has averaged, of their mean products and their means. Samples between
-/// texels then tell what varies within them: what varies from one to the next is another matter.
-Image covariance(Image means_of_products, const Image& means) {
-    const Image of_means = products(means);
-    for (std::size_t i = 0; i < of_means.texels.size(); ++i)
-        means_of_products.texels[i] = i % 3 == 1 ? means_of_products.texels[i] - of_means.texels[i]
-                                                 : std::max(means_of_products.texels[i] - of_means.texels[i], 0.0f);
-    return means_of_products;
-}
-
 /// The finest level, of which the coarser ones are means.
 Image finest_level(const Image& image, const PlannedTexture& planned) {
     const TextureUse& use = planned.use;
@@ -148,15 +139,13 @@ Image finest_level(const Image& image, const PlannedTexture& planned) {
     if (use.content == Content::normal) level = slopes_of_normals(level, use.y_down);
     if (use.content == Content::slope && use.y_down) level = turned_down(std::move(level));
     if (slopes && use.content == Content::height) level = slopes_of_heights(level, use.wrap);
-    return level;
+    return planned.kind == TexelKind::moments ? products(level) : level;
 }
 
 }  // namespace
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
     Image level = finest_level(image, planned);
-    const bool moments = planned.kind == TexelKind::moments;
-    Image squares = moments ? products(level) : Image{};
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -164,13 +153,12 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        append(heap, moments ? covariance(squares, level) : level, planned.use.wrap);
+        append(heap, level, planned.use.wrap);
         if (level.width == 1 && level.height == 1) {
             ++count;
             break;
         }
         level = half(level);
-        if (moments) squares = half(squares);
     }
     heap.table[words + WR_TEXTURE_LEVELS] = count;
     if (heap.texels.size() > (std::size_t{1} << 31) - 1)

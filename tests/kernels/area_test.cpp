@@ -104,11 +104,10 @@ TEST(Area, CovarianceTurnsWithItsAxes) {
             want = want + V{g.x * g.x, g.x * g.y, g.y * g.y} * real{0.25L};
         }
         c.add("covariance, seed " + std::to_string(seed), false);
-        c.in("lost", V{ss - mean.x * mean.x, st - mean.x * mean.y, tt - mean.y * mean.y}), c.in("s", s), c.in("t", t),
-            c.in("scale", scale);
+        c.in("products", V{ss, st, tt}), c.in("mean", mean), c.in("s", s), c.in("t", t), c.in("scale", scale);
         c.out("spread", want);
     }
-    check(c, "wr_vec3 spread = wr_spread_along(lost, scale, s, t);",
+    check(c, "wr_vec3 spread = wr_spread_along(wr_lost_spread(products, mean), scale, s, t);",
           {{"spread", xyz("spread"), ErrorMeasure::absolute, 3e-6, 3e-6, 1e-5}});
 }
 

@@ -41,7 +41,7 @@ TEST(Relit, StandsCloserToTheRerenderThanTheUnbumpedPicture) {
                              l.ambient = {0.3, 0.33, 0.4};
                          }},
                         {"shadows read", 3.2, [](Lighting& l) { l.shadows = Shadows::read; }},
-                        {"the sun's picture", 3.4, [](Lighting& l) { l.lights[0].picture = "Combined_sun"; }}};
+                        {"the sun's picture", 3.2, [](Lighting& l) { l.lights[0].picture = "Combined_sun"; }}};
     for (const Way& way : ways) {
         Scene own = scene;
         way.change(own.lighting);
