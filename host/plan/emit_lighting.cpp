@@ -50,7 +50,8 @@ std::string load_text(Section& section, const std::string& name, const std::arra
     section.inputs.insert(planes.begin(), planes.end());
     return fmt::format(
         "        wr_mask {0}_seen;\n"
-        "        wr_vec3 {0} = wr_load_picture({1}, {2}, {3}, at.in, &{0}_seen);\n",
+        "        wr_vec3 {0} = wr_picture_of(wr_load_floats({1}, at.in), wr_load_floats({2}, at.in),\n"
+        "            wr_load_floats({3}, at.in), &{0}_seen);\n",
         name, identifier(planes[0]), identifier(planes[1]), identifier(planes[2]));
 }
 

@@ -24,7 +24,17 @@ TEST_P(EverySceneSource, Compiles) {
     if (!has_clang()) GTEST_SKIP() << "clang was not found by cmake";
     const Scene scene = load_scene(fmt::format("{}/data/scenes/{}.toml", WRINKLE_SOURCE_DIR, GetParam()));
     const Frame frame = describe_frame(scene);
+    Scene relit = scene;
+    relit.lighting.relight = Relight::ratio;
+    relit.lighting.shadows = Shadows::read;
+    if (relit.lighting.lights.empty()) relit.lighting.lights.resize(1);
     std::set<std::string> seen;
+    const auto compile = [&](const Scene& own, const PlanOptions& options, const std::string& what) {
+        const std::string source = plan_for(own, frame, options).source;
+        if (!seen.insert(source).second) return;
+        EXPECT_EQ(clang_complaints(source, "-cl-std=CL1.2 -DWR_LANES=8"), "") << what;
+    };
+    compile(relit, {}, "relit by ratio");
     for (const int taps : {scene.filter.taps, 1, 16})
         for (const bool roughness : {false, true})
             for (const bool mean : {false, true})
@@ -32,13 +42,9 @@ TEST_P(EverySceneSource, Compiles) {
                     Scene own = scene;
                     own.filter = {.taps = taps, .light_mean = mean};
                     own.output.roughness = own.output.slope_covariance = roughness;
-                    const std::string source =
-                        plan_for(own, frame, {.precision = {precision, std::vector(own.layers.size(), precision)}})
-                            .source;
-                    if (!seen.insert(source).second) continue;
-                    EXPECT_EQ(clang_complaints(source, "-cl-std=CL1.2 -DWR_LANES=8"), "")
-                        << taps << " points, roughness " << roughness << ", light by the mean " << mean << ", "
-                        << precision_name(precision);
+                    compile(own, {.precision = {precision, std::vector(own.layers.size(), precision)}},
+                            fmt::format("{} points, roughness {}, light by the mean {}, {}", taps, roughness, mean,
+                                        precision_name(precision)));
                 }
 }
 
