@@ -6,7 +6,7 @@
 
 namespace wrinkle::cases {
 
-constexpr double lighting_relative = 1e-6, smooth_lighting_relative = 1e-4;
+constexpr double lighting_relative = 2e-6, smooth_lighting_relative = 1e-4;
 
 inline Lighting test_lighting() {
     Lighting lighting;
