@@ -34,7 +34,7 @@ TEST_P(EverySceneSource, Compiles) {
         if (!seen.insert(source).second) return;
         EXPECT_EQ(clang_complaints(source, "-cl-std=CL1.2 -DWR_LANES=8"), "") << what;
     };
-    compile(relit, {}, "relit by ratio");
+    if (frame.planes.contains("beauty.r")) compile(relit, {}, "relit by ratio");
     for (const int taps : {scene.filter.taps, 1, 16})
         for (const bool roughness : {false, true})
             for (const bool mean : {false, true})
