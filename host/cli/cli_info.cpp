@@ -36,8 +36,8 @@ std::vector<std::string> channels_of(const GBufferInfo& info, ChannelType type) 
     return names;
 }
 
-/// What is done to roles before they are used, and what spoils them.
-std::vector<std::string> remarks(const GBufferInfo& info) {
+/// What is done to roles before they are used, and what spoils them; then what is said of the scene.
+std::vector<std::string> remarks(const GBufferInfo& info, const std::vector<std::string>& of_scene) {
     std::vector<std::string> lines;
     if (info.packed_normals) lines.emplace_back("normals are stored in [0,1] and unpacked");
     if (info.roles.camera_space_normals) lines.emplace_back("normals are in camera space, and turned by the camera");
@@ -51,10 +51,11 @@ std::vector<std::string> remarks(const GBufferInfo& info) {
                 100.0 * static_cast<double>(role.mixed) / static_cast<double>(info.measured)));
     if (const std::string problem = uv_problem(info); !problem.empty()) lines.push_back(problem);
     if (info.camera) lines.insert(lines.end(), info.camera->doubts.begin(), info.camera->doubts.end());
+    lines.insert(lines.end(), of_scene.begin(), of_scene.end());
     return lines;
 }
 
-void print_text(const GBufferInfo& info) {
+void print_text(const GBufferInfo& info, const std::vector<std::string>& of_scene) {
     fmt::print("{}: {} x {}, {} part{}, {} channels, written by {}\n", info.file.string(), info.size.width,
                info.size.height, info.parts, info.parts == 1 ? "" : "s", info.channels.size(),
                writer_name(info.roles.writer));
@@ -75,7 +76,7 @@ void print_text(const GBufferInfo& info) {
                                   : fmt::format("{}{}", role.channels.front(), role.channels.size() > 1 ? " ..." : ""),
             role.min, role.max,
             100.0 * static_cast<double>(role.invalid) / static_cast<double>(std::max<std::uint64_t>(info.measured, 1)));
-    for (const std::string& line : remarks(info)) fmt::print("  {}\n", line);
+    for (const std::string& line : remarks(info, of_scene)) fmt::print("  {}\n", line);
     if (info.roles.has_role("depth")) {
         const bool measured = info.camera && info.camera->depth;
         const DepthKind kind = measured ? *info.camera->depth : info.roles.depth;
@@ -105,7 +106,7 @@ void print_text(const GBufferInfo& info) {
             use.defaults.empty() ? "" : fmt::format(" (the scene's constants stand in for {})", join(use.defaults)));
 }
 
-void print_json(const GBufferInfo& info) {
+void print_json(const GBufferInfo& info, const std::vector<std::string>& of_scene) {
     nlohmann::json roles = nlohmann::json::array(), uses = nlohmann::json::array(), camera;
     for (const RoleStats& role : info.stats)
         roles.push_back({{"role", role.role},
@@ -136,7 +137,7 @@ void print_json(const GBufferInfo& info) {
                                                 {"views", info.views},
                                                 {"view", info.view},
                                                 {"measured_pixels", info.measured},
-                                                {"remarks", remarks(info)},
+                                                {"remarks", remarks(info, of_scene)},
                                                 {"roles", roles},
                                                 {"camera", camera},
                                                 {"uses", uses},
@@ -153,20 +154,24 @@ struct InfoArguments {
 void info(const InfoArguments& arguments) {
     GBufferSource source;
     std::optional<CameraSource> camera;
+    std::optional<Scene> scene;
     if (lower(arguments.file.extension().string()) == ".toml") {
-        const Scene scene = load_scene(arguments.file);
-        source = scene.gbuffer;
-        camera = scene.camera;
+        scene = load_scene(arguments.file);
+        source = scene->gbuffer;
+        camera = scene->camera;
     } else {
         source.file = arguments.file;
     }
     if (!arguments.camera.empty()) camera.emplace().file = arguments.camera;
     check_frame_pattern(frame_files(source, camera), "--frame", arguments.frame.has_value());
-    const GBufferInfo gathered = gather_info(source, camera, arguments.frame.value_or(0));
+    const int number = arguments.frame.value_or(0);
+    const GBufferInfo gathered = gather_info(source, camera, number);
+    std::vector<std::string> of_scene;
+    if (scene && arguments.camera.empty()) of_scene = scene_warnings(*scene, number);
     if (arguments.json)
-        print_json(gathered);
+        print_json(gathered, of_scene);
     else
-        print_text(gathered);
+        print_text(gathered, of_scene);
 }
 
 }  // namespace

@@ -179,6 +179,17 @@ ChannelType GBufferReader::channel_type(std::string_view channel) const {
     const auto& place = *impl_->places.at(std::string(channel));
     return place.whole_numbers ? ChannelType::whole : place.half ? ChannelType::half : ChannelType::single;
 }
+std::uint32_t GBufferReader::block_rows() const {
+    const auto& parts = impl_->image.parts;
+    return static_cast<std::uint32_t>(std::ranges::max_element(parts, {}, &io::Part::block_rows)->block_rows);
+}
+std::uint32_t GBufferReader::blocks_at_a_glance(std::uint32_t most) const {
+    constexpr double bytes = 64e6;  // a tenth of a second
+    constexpr std::uint32_t fewest = 3;
+    const auto& parts = impl_->image.parts;
+    const double largest = std::ranges::max_element(parts, {}, &io::Part::block_bytes)->block_bytes;
+    return std::min(std::max(static_cast<std::uint32_t>(std::min(bytes / std::max(largest, 1.0), 1e9)), fewest), most);
+}
 io::ObjectStorage GBufferReader::object_storage() const {
     if (!impl_->objects) impl_->objects = impl_->sample_objects();
     return *impl_->objects;

@@ -47,6 +47,10 @@ public:
     const std::string& view() const;                   ///< the one that is read
     double pixel_aspect() const;                       ///< width of a pixel by its height
     ChannelType channel_type(std::string_view channel) const;
+    /// Rows that are compressed together, at most: reading one takes as long as reading all of them.
+    std::uint32_t block_rows() const;
+    /// How many such blocks may be read where a glance has to do, `most` at most: fewer, the more each one holds.
+    std::uint32_t blocks_at_a_glance(std::uint32_t most) const;
     io::ObjectStorage object_storage() const;  ///< of the object role; the first call reads a few rows
     const Metadata& metadata() const;          ///< of all parts; where several have a value, the first part's
 

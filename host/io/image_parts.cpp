@@ -30,14 +30,27 @@ std::string full_name(const std::string& channel, const std::string& layer, bool
     return picture ? channel : layer + "." + channel;
 }
 
+/// Rows that are compressed together.
+int block_rows(const OIIO::ImageSpec& spec) {
+    if (spec.tile_width > 0) return spec.tile_height;
+    const std::string compression{spec.get_string_attribute("compression")};
+    if (compression == "zip" || compression == "pxr24") return 16;
+    if (compression.starts_with("dwab")) return 256;
+    if (compression == "piz" || compression.starts_with("b44") || compression.starts_with("dwaa")) return 32;
+    return 1;
+}
+
 Part geometry(const OIIO::ImageSpec& spec) {
+    const int rows = block_rows(spec);
     return {spec.x - spec.full_x,
             spec.y - spec.full_y,
             spec.width,
             spec.height,
             spec.x,
             spec.y,
-            spec.tile_width > 0 ? spec.tile_height : 0};
+            spec.tile_width > 0 ? spec.tile_height : 0,
+            rows,
+            static_cast<double>(spec.pixel_bytes(true)) * spec.width * rows};
 }
 
 void check(const OIIO::ImageSpec& spec, Size size, int part, const std::filesystem::path& file) {

@@ -29,6 +29,8 @@ struct Part {
     int x = 0, y = 0, width = 0, height = 0;  ///< data window, relative to the frame's first pixel
     int origin_x = 0, origin_y = 0;           ///< of the data window in the file's own coordinates
     int tile_height = 0;                      ///< 0 when the part is stored by scanlines
+    int block_rows = 1;      ///< that are compressed together: reading one of them takes as long as all
+    double block_bytes = 0;  ///< of those rows, with all channels of the part, uncompressed
 };
 
 /// The flat parts of an image file and the channels in them, as far as they belong to the view that is read.

@@ -14,8 +14,6 @@
 namespace wrinkle {
 namespace {
 
-constexpr std::uint32_t band_rows = 16;  // a block of ZIP
-
 /// The planes whose range is reported. Of a cryptomatte that is the coverage: ids are bit patterns, not numbers.
 std::vector<std::string> measured_planes(const Role& role) {
     if (role.name == "cryptomatte") return {"crypto.coverage0"};
@@ -29,20 +27,21 @@ bool is_valid(const std::string& role, std::span<const float> components) {
     return true;
 }
 
+/// The rows that are measured at a time: those that are compressed together.
+std::uint32_t rows_of_a_band(const GBufferReader& reader) {
+    constexpr std::uint32_t fewest = 16, most = 256;
+    return std::clamp(reader.block_rows(), fewest, most);
+}
+
 /// The first rows of the bands that are measured: all of them, or as many, spread evenly, as take no longer than a
 /// blink.
 std::vector<std::uint32_t> measured_bands(const GBufferReader& reader) {
-    constexpr double most_bytes = 64e6;  // uncompressed, as blocks hold all channels of their rows
-    const auto [width, height] = reader.size();
-    double bytes = 0;
-    for (const auto& channel : reader.channels())
-        bytes += reader.channel_type(channel) == ChannelType::half ? 2.0 : 4.0;
-    const std::uint32_t bands = (height + band_rows - 1) / band_rows;
-    const double share = most_bytes / (bytes * width * height);
-    const auto wanted = static_cast<std::uint32_t>(std::clamp(share * bands, 1.0, double(bands)));
-    std::vector<std::uint32_t> rows;
-    for (std::uint32_t i = 0; i < wanted; ++i) rows.push_back((2 * i + 1) * bands / (2 * wanted) * band_rows);
-    return rows;
+    const std::uint32_t height = reader.size().height, rows = rows_of_a_band(reader);
+    const std::uint32_t bands = (height + rows - 1) / rows, blocks = (rows - 1) / reader.block_rows() + 1;
+    const std::uint32_t wanted = std::max(reader.blocks_at_a_glance(bands * blocks) / blocks, 1u);
+    std::vector<std::uint32_t> first;
+    for (std::uint32_t i = 0; i < wanted; ++i) first.push_back((2 * i + 1) * bands / (2 * wanted) * rows);
+    return first;
 }
 
 std::vector<RoleStats> measure(const GBufferReader& reader, std::uint64_t& measured) {
@@ -61,6 +60,7 @@ std::vector<RoleStats> measure(const GBufferReader& reader, std::uint64_t& measu
     }
     const auto [width, height] = reader.size();
     const bool whole_objects = reader.object_storage() != io::ObjectStorage::single;
+    const std::uint32_t band_rows = rows_of_a_band(reader);
     std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{band_rows} * width));
     std::vector<float*> out;
     for (auto& plane : values) out.push_back(plane.data());

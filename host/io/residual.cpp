@@ -58,7 +58,7 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
     std::vector<float*> out;
     for (auto& plane : values) out.push_back(plane.data());
 
-    const auto pairs = std::clamp((rows + 1) / 2, 1u, std::max(height / 2, 1u));
+    const auto pairs = std::clamp(reader.blocks_at_a_glance((rows + 1) / 2), 1u, std::max(height / 2, 1u));
     const auto step = std::max(width / samples_per_row, 1u);
     for (std::uint32_t i = 0; i < pairs; ++i) {
         const auto middle =

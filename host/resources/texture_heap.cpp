@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "io/texture_doubts.h"
 #include "io/volume_file.h"
 #include "resources/volume_heap.h"
 #include "wrinkle/error.h"
@@ -168,16 +169,23 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
 TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     TextureHeap heap;
     std::vector<std::pair<TextureUse, Image>> atlases;  // files of which only regions are used
+    const auto judged = [&](Image image, const PlannedTexture& texture) {
+        std::string doubt = texture.kind == TexelKind::mask ? "" : io::texture_doubt(texture.use, image);
+        if (!doubt.empty() && !texture.layer.empty()) doubt = fmt::format("{}: {}", texture.layer, doubt);
+        if (!doubt.empty() && std::ranges::find(heap.doubts, doubt) == heap.doubts.end())
+            heap.doubts.push_back(std::move(doubt));
+        return image;
+    };
     const auto load = [&](const PlannedTexture& texture) {
         if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
             add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
         } else if (is_whole(texture)) {
-            add_texture(heap, load_bump(texture.use), texture);
+            add_texture(heap, judged(load_bump(texture.use), texture), texture);
         } else {
             TextureUse read = texture.use;  // wrapping and green's direction come after reading
             read.wrap = Wrap::repeat, read.y_down = false;
             auto atlas = std::ranges::find(atlases, read, &std::pair<TextureUse, Image>::first);
-            if (atlas == atlases.end()) atlas = atlases.emplace(atlas, read, load_bump(read));
+            if (atlas == atlases.end()) atlas = atlases.emplace(atlas, read, judged(load_bump(read), texture));
             add_texture(heap, atlas->second, texture);
         }
     };

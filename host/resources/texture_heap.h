@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "io/texture_file.h"
@@ -13,6 +14,7 @@ namespace wrinkle {
 struct TextureHeap {
     std::vector<float> texels;
     std::vector<std::uint32_t> table;
+    std::vector<std::string> doubts{};  ///< of files that look as if they held something else, by the layer
 };
 
 /// Floats after all texels: the last pair of a row may be read as four floats.

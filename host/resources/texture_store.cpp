@@ -26,6 +26,8 @@ std::shared_ptr<const DeviceTextures> TextureStore::get(const std::vector<Planne
     if (known != entries_.end()) return known->textures;
     TextureHeap heap = load_textures(wanted);
     check_fits(heap, device_.info);
+    for (std::string& doubt : heap.doubts)
+        if (std::ranges::find(doubts_, doubt) == doubts_.end()) doubts_.push_back(std::move(doubt));
     auto textures = std::make_shared<const DeviceTextures>(
         DeviceTextures{upload(device_, std::move(heap.texels)), upload(device_, std::move(heap.table))});
     entries_.push_back({wanted, textures});

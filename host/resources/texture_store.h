@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "plan/plan.h"
@@ -27,6 +28,9 @@ public:
     /// How often files were read.
     std::size_t loads() const { return entries_.size(); }
 
+    /// What looks wrong in the files that were read, a line each.
+    const std::vector<std::string>& doubts() const { return doubts_; }
+
 private:
     struct Entry {
         std::vector<PlannedTexture> planned;
@@ -35,6 +39,7 @@ private:
 
     Device device_;
     std::vector<Entry> entries_;
+    std::vector<std::string> doubts_;
 };
 
 }  // namespace wrinkle

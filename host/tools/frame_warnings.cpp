@@ -6,6 +6,10 @@
 
 #include "plan/layer_text.h"
 #include "plan/section.h"
+#include "resources/texture_heap.h"
+#include "run/open_frame.h"
+#include "run/pass_impl.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle {
 
@@ -38,6 +42,14 @@ std::vector<std::string> frame_warnings(const Scene& scene, const GBufferReader&
     if (const std::string uv = problem_of_uv(reader.roles(), io::uv_digits(reader)); !uv.empty())
         lines.push_back(fmt::format("{}: {}", layer_label(*layer), uv));
     return lines;
+}
+
+std::vector<std::string> scene_warnings(const Scene& scene, int number) {
+    try {
+        Plan plan = plan_for(scene, describe_frame(scene, number), {});
+        std::erase_if(plan.textures, [](const PlannedTexture& texture) { return !texture.grid.empty(); });
+        return load_textures(plan.textures).doubts;
+    } catch (const Error& error) { return {fmt::format("run refuses the scene: {}", error.what())}; }
 }
 
 }  // namespace wrinkle

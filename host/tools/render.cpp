@@ -138,6 +138,7 @@ RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
         report.pixels += std::uint64_t{frame.size.width} * frame.size.height;
         ++report.frames;
     }
+    report.warnings.insert(report.warnings.end(), store.doubts().begin(), store.doubts().end());
     const auto unmatched = matches.warnings();
     report.warnings.insert(report.warnings.end(), unmatched.begin(), unmatched.end());
     if (kept) report.budget = kept->budget.report();

@@ -142,5 +142,20 @@ TEST(Frames, MissingDigitsOfTextureCoordinatesAreWarnedOf) {
     expect_mentions(place.run("info f.exr").out, {"16-bit floats: uv.uv", "the UV pass (uv.u) is 16-bit"});
 }
 
+TEST(Frames, TexturesThatLookLikeSomethingElseAreWarnedOf) {
+    const Workplace place;
+    write_exr(
+        place / "n.png", 8, 8, {"R", "G", "B"}, [](int c, int, int) { return c == 2 ? 1.0f : 188.0f / 255; },
+        OIIO::TypeUInt8);
+    const std::string layer = "[[layer]]\nkind = \"normal_map\"\ntexture = \"n.png\"\n";
+    place.write_scene(layer);
+    const Ran ran = place.run("run scene.toml");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    expect_mentions(ran.err, {"wrinkle: warning: ", "normal_map 1", "n.png", "sRGB's curve"});
+    expect_mentions(place.run("info scene.toml").out, {"normal_map 1", "n.png", "sRGB's curve"});
+    place.write_scene(layer + "mask = { channel = \"dirt\" }\n");
+    expect_mentions(place.run("info scene.toml").out, {"run refuses the scene: ", "dirt"});
+}
+
 }  // namespace
 }  // namespace wrinkle::test
