@@ -49,6 +49,7 @@ void measure_ablation(const Device& device, const std::filesystem::path& file, S
     };
     const Way ways[] = {{"only what it needs", scene, {}, reference},
                         {"everything, by branches", everything, {.switches = true}, reference},
+                        {"numbers compiled in", scene, {.compiled_numbers = true}, reference},
                         {"no skipping", scene, {.skip = false}, reference},
                         {"no footprints", unlimited, {}, unlimited_reference},
                         {"no fusing", scene, {.split = true}, reference}};

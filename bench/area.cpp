@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <random>
 
 #include "contests.h"
 #include "resident.h"
 #include "tests/reference/evaluate.h"
 #include "tests/reference/scene_images.h"
+#include "texture_system.h"
 
 namespace wrinkle::bench {
 
@@ -19,7 +21,7 @@ constexpr int kColumns = 6;            // of pixels that have a truth
 
 const std::filesystem::path kTextures = WRINKLE_SOURCE_DIR "/data/textures";
 
-/// A ground to the horizon, seen from 1.6 m up; its texture coordinates repeat every 1.8 m.
+/// A ground to the horizon, seen from 1.6 m up.
 class Ground {
 public:
     Ground()
@@ -66,8 +68,8 @@ private:
             const bool seen = depth > 0 && depth < 2000;
             out.planes["depth"][i] = seen ? static_cast<float>(depth) : 1e10f;
             out.planes["normal.z"][i] = 1;
-            out.planes["uv.u"][i] = seen ? static_cast<float>((rays.eye[0] + depth * d[0]) / 1.8) : 0;
-            out.planes["uv.v"][i] = seen ? static_cast<float>((rays.eye[1] + depth * d[1]) / 1.8) : 0;
+            out.planes["uv.u"][i] = seen ? static_cast<float>((rays.eye[0] + depth * d[0]) / kGroundRepeat) : 0;
+            out.planes["uv.v"][i] = seen ? static_cast<float>((rays.eye[1] + depth * d[1]) / kGroundRepeat) : 0;
         }
         return out;
     }
@@ -162,6 +164,15 @@ std::vector<Source> sources() {
              layer(DecalLayer{.texture = {.file = kTextures / "cracks_height.png"}, .half_size = {2, 4, 0.5}}, 0.2)}};
 }
 
+/// The same slopes by OpenImageIO, where the layer is a height or normal map.
+std::optional<TextureSystemSlopes> by_texture_system(const Layer& layer, const Ground& ground) {
+    if (const auto* map = std::get_if<HeightMapLayer>(&layer.bump))
+        return TextureSystemSlopes(map->texture, layer.scale / kGroundRepeat, ground.frame(1));
+    if (const auto* map = std::get_if<NormalMapLayer>(&layer.bump))
+        return TextureSystemSlopes(map->texture, layer.scale, ground.frame(1));
+    return std::nullopt;
+}
+
 }  // namespace
 
 void measure_area(const Device& device, Run& run) {
@@ -171,8 +182,8 @@ void measure_area(const Device& device, Run& run) {
         int taps;
         std::uint32_t factor;
     };
-    const Way ways[] = {{"1 tap", 1, 1},    {"2 taps", 2, 1}, {"4 taps", 4, 1}, {"8 taps", 8, 1},
-                        {"16 taps", 16, 1}, {"2 x 2", 1, 2},  {"4 x 4", 1, 4},  {"8 x 8", 1, 8}};
+    const Way ways[] = {{"no bump", 0, 1},  {"1 tap", 1, 1}, {"2 taps", 2, 1}, {"4 taps", 4, 1}, {"8 taps", 8, 1},
+                        {"16 taps", 16, 1}, {"2 x 2", 1, 2}, {"4 x 4", 1, 4},  {"8 x 8", 1, 8}};
     for (const Source& source : sources()) {
         Scene scene;
         scene.layers = {source.layer};
@@ -181,13 +192,21 @@ void measure_area(const Device& device, Run& run) {
         std::vector<Contender> contenders;
         for (const Way& way : ways) {
             Scene own = scene;
-            own.filter.taps = way.taps;
+            own.filter.taps = std::max(way.taps, 1);
+            if (way.taps == 0) own.layers[0].bump = ConstantLayer{};  // what the bump tilts normals by
             if (way.factor > 1) own.layers[0].footprint = false;
             Resident& resident = residents.emplace_back(device, own, ground.frame(way.factor));
             contenders.push_back({way.name, [&resident] { resident.run(); }});
         }
+        std::optional<TextureSystemSlopes> system = by_texture_system(source.layer, ground);
+        if (system) contenders.push_back({"TextureSystem", [&system] { system->run(); }});
         race(contenders, few(run.rounds));
-        for (std::size_t k = 0; k < contenders.size(); ++k) {
+        if (system) {
+            Measurement m = measured("area", source.name, contenders.back(), 0, ground.frame(1).pixels());
+            m.error = truth.compare(system->normals());
+            run.measurements.push_back(std::move(m));
+        }
+        for (std::size_t k = 0; k < residents.size(); ++k) {
             const std::size_t points = std::size_t{kSize.width} * kSize.height * ways[k].factor * ways[k].factor;
             const Normals normals = residents[k].normals(points);
             Measurement m = measured("area", source.name, contenders[k], device.info.lanes,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "device/build_log.h"
 #include "device/kernel_sources.h"
 #include "device/program_cache.h"
@@ -69,9 +71,10 @@ BuiltProgram build_program(const Device& device, const std::string& text, const 
 void save_program(const BuiltProgram& built) {
     if (built.cache_file.empty() || built.source == BuildSource::disk) return;
     try {
+        // A context made elsewhere may have several devices; the program was built for one.
         const auto binaries = built.program.getInfo<CL_PROGRAM_BINARIES>();
-        if (binaries.empty() || binaries.front().empty()) return;
-        write_program(built.cache_file, built.key, binaries.front());
+        const auto one = std::ranges::find_if(binaries, [](const auto& binary) { return !binary.empty(); });
+        if (one != binaries.end()) write_program(built.cache_file, built.key, *one);
     } catch (const cl::Error&) {
         // a driver without binaries: the next start compiles again
     }

@@ -32,9 +32,14 @@ std::string hash_name(const std::string& text) {
 
 std::string with_length(const std::string& key) { return fmt::format("{:016x}{}", key.size(), key); }
 
-/// Of this version, and of those before it, which gave them another name.
+/// A program that was being written, by this version (".HASH.program.NAME.partial") or by those before it
+/// ("HASH.program.NAME"). The folder may be somebody's own, with other unfinished files in it.
 bool is_unfinished(const fs::path& file) {
-    return file.extension() == ".partial" || file.stem().extension() == kExtension;
+    constexpr std::size_t kHash = 32;
+    std::string name = file.filename();
+    if (name.starts_with('.')) name.erase(0, 1);
+    const std::size_t hash = std::min(name.find_first_not_of("0123456789abcdef"), name.size());
+    return hash == kHash && name.substr(kHash).starts_with(std::string(kExtension) + ".");
 }
 
 /// Deletes the longest unused programs of a folder until the rest is within `limit` bytes, and what killed runs left.

@@ -11,9 +11,32 @@ namespace {
 
 /// Text that sets the number of points in each pixel's area.
 std::string count_text(const Emitter& emitter) {
-    const int most = emitter.scene.filter.taps;
-    return most == 1 ? "" : fmt::format("        taps.count = wr_tap_count(taps, {}, wanted);\n", most);
+    return fmt::format("        taps.count = wr_tap_count(taps, {}, wanted);\n", emitter.scene.filter.taps);
 }
+
+/// Texts that part a pixel's area into shares, and set what layers see of the one that belongs to a point.
+constexpr const char* kShares =
+    "        const wr_shares shares = wr_shares_of(taps);\n"
+    "        const wr_vec3 share_dx = wr_scale(taps.along, shares.length), share_dy = taps.across;\n";
+constexpr const char* kShareUv =
+    "        const wr_texcoord axes_uv = wr_along_area(uv, taps);\n"
+    "        const wr_texcoord share_uv = {uv.st, wr_scale(axes_uv.dx, shares.length), axes_uv.dy};\n";
+constexpr const char* kPoint =
+    "            const wr_mask on = valid & (taps.count > (wr_real)((WR_SCALAR)tap));\n"
+    "            if (!wr_any(on)) break;\n"
+    "            wr_real weight, shift = wr_tap_at(taps, shares, tap, &weight);\n"
+    "            const wr_real share = on ? weight : (wr_real)(0);\n"
+    "            wr_vec3 p = wr_fma(taps.along, shift, centre);\n";
+constexpr const char* kPointUv =
+    "            const wr_texcoord uv = {wr_add(axes_uv.st, wr_scale(axes_uv.dx, shift)), share_uv.dx, share_uv.dy};\n";
+constexpr const char* kPointLow =
+    "            wr_vec3 p_low;\n"
+    "            p = wr_moved(centre, centre_low, wr_scale(taps.along, shift), &p_low);\n";
+/// The same where the pixel's centre is its only point.
+constexpr const char* kCentre =
+    "            const wr_mask on = valid;\n"
+    "            const wr_real share = on ? (wr_real)(1) : (wr_real)(0);\n"
+    "            wr_vec3 p = centre;\n";
 
 /// A variable that layers add to, and the one for its mean over the area.
 struct Sum {
@@ -81,8 +104,12 @@ bool walks_area(const Emitter& emitter) {
 bool varies_over_area(const Emitter& emitter, const Layer& layer) {
     const LayerKind& kind = emitter.kind(layer);
     if (!walks_area(emitter) || !layer.footprint || kind.once_a_pixel) return false;
+    // Tiles cover the areas that the frame's own points and normals give, not those that layers before have moved or
+    // bent.
     const auto before = std::span(emitter.scene.layers).first(emitter.index_of(layer));
-    return !kind.binned || std::ranges::none_of(before, [&](const Layer& l) { return emitter.kind(l).moves; });
+    return !kind.binned || std::ranges::none_of(before, [&](const Layer& l) {
+        return emitter.kind(l).moves || emitter.kind(l).ends_stage;
+    });
 }
 
 Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const AreaUse& use) {
@@ -103,7 +130,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     }
     area.reads.insert({"g", "dh_dp"});
     area.operations += 60;
-    const bool uv = area.reads.contains("uv"), low = area.reads.contains("p_low");
+    const bool uv = area.reads.contains("uv"), low = area.reads.contains("p_low"), one = emitter.scene.filter.taps == 1;
     std::string sums;
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value)) sums += fmt::format("        wr_vec3 {} = wr_zero3();\n", sum.name);
@@ -128,36 +155,22 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     text = masks +
            fmt::format("        const wr_mask wanted = {};\n        if ({}) {{\n", wanted,
                        all || !emitter.options.skip ? "1" : "wr_any(wanted)") +
-           axis_text(emitter) + count_text(emitter) + sums +
-           "        const wr_shares shares = wr_shares_of(taps);\n"
-           "        const wr_vec3 centre = p, before = g, before_space = dh_dp;\n"
-           "        const wr_vec3 share_dx = wr_scale(taps.along, shares.length), share_dy = taps.across;\n";
-    if (uv)
-        text +=
-            "        const wr_texcoord axes_uv = wr_along_area(uv, taps);\n"
-            "        const wr_texcoord share_uv = {uv.st, wr_scale(axes_uv.dx, shares.length), axes_uv.dy};\n";
+           (one ? "" : axis_text(emitter) + count_text(emitter)) + sums +
+           "        const wr_vec3 centre = p, before = g, before_space = dh_dp;\n" +
+           (one ? "        const wr_vec3 share_dx = dp_dx, share_dy = dp_dy;\n" : kShares);
+    if (uv) text += one ? "        const wr_texcoord share_uv = uv;\n" : kShareUv;
     if (low) text += "        const wr_vec3 centre_low = p_low;\n";
     // Layers filter over one point's share of the area: in this block, dp_dx, dp_dy and uv are those of a share.
     text += "        {\n        const wr_vec3 dp_dx = share_dx, dp_dy = share_dy;\n";
     if (uv) text += "        const wr_texcoord uv = share_uv;\n";
-    text += prepared + fmt::format(
-                           "#pragma nounroll\n        for (int tap = 0; tap < {}; ++tap) {{\n"
-                           "            const wr_mask on = valid & (taps.count > (wr_real)((WR_SCALAR)tap));\n"
-                           "            if (!wr_any(on)) break;\n"
-                           "            wr_real weight, shift = wr_tap_at(taps, shares, tap, &weight);\n"
-                           "            const wr_real share = on ? weight : (wr_real)(0);\n"
-                           "            wr_vec3 p = wr_fma(taps.along, shift, centre);\n"
-                           "            wr_vec3 g = before, dh_dp = before_space{};\n"
-                           "            const wr_mask valid = on;\n",
-                           emitter.scene.filter.taps, use.spread ? ", finer = wr_zero3()" : "");
-    if (uv)
-        text +=
-            "            const wr_texcoord uv = {wr_add(axes_uv.st, wr_scale(axes_uv.dx, shift)), share_uv.dx, "
-            "share_uv.dy};\n";
-    if (low)
-        text +=
-            "            wr_vec3 p_low;\n"
-            "            p = wr_moved(centre, centre_low, wr_scale(taps.along, shift), &p_low);\n";
+    text +=
+        prepared +
+        fmt::format("#pragma nounroll\n        for (int tap = 0; tap < {}; ++tap) {{\n{}", emitter.scene.filter.taps,
+                    one ? kCentre : kPoint) +
+        fmt::format("            wr_vec3 g = before, dh_dp = before_space{};\n            const wr_mask valid = on;\n",
+                    use.spread ? ", finer = wr_zero3()" : "");
+    if (uv) text += one ? "            const wr_texcoord uv = share_uv;\n" : kPointUv;
+    if (low) text += one ? "            wr_vec3 p_low = centre_low;\n" : kPointLow;
     text += bumps;
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value))

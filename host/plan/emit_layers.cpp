@@ -32,14 +32,15 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     for (PlannedTexture& texture : std::span(emitter.plan.textures).subspan(known_textures)) texture.layer = who;
     std::string condition = "wr_any(active)";
     if (emitter.options.switches) condition = fmt::format("{} != 0 && {}", text.strength(), condition);
-    section.body = mask.rest + (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
+    const std::size_t index = emitter.index_of(layer);
+    section.body = mask.rest + (text.every_point ? fmt::format("        active = wanted_{};\n", index) : "") +
+                   (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
     if (!section.area) {
         section.body = mask.planes + section.body;
         return section;
     }
     // What planes say of the mask holds for the whole pixel, so it is evaluated once, before the points of its area.
-    const std::size_t index = emitter.index_of(layer);
     section.wanted = fmt::format("wanted_{}", index);
     section.masks = fmt::format(
         "        wr_real mask_{0};\n        wr_mask wanted_{0} = valid;\n{1}        {{\n{2}        mask_{0} = m;\n",

@@ -124,11 +124,6 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
     return text;
 }
 
-std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section) {
-    const MaskText text = emit_mask_parts(emitter, layer, section);
-    return text.planes + text.rest;
-}
-
 MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;

@@ -62,6 +62,9 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     std::vector<std::string> inputs = geometry.planes;
     const bool area = over_area(emitter), normals = moved.by_normal || area;
     if (normals) inputs.insert(inputs.end(), {"normal.x", "normal.y", "normal.z"});
+    // All tables share the tiles: those over areas, and those at points that a parallax has moved.
+    std::string grow = area ? fmt::format("{0}{{\n{1}{0}}}\n", kIndent, grow_area_text(emitter, geometry)) : "";
+    if (!area || !moved.text.empty()) grow += grow_text(emitter, moved);
     std::string planes;
     for (const std::string& plane : inputs)
         planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
@@ -88,7 +91,7 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
 )",
         planes, load_geometry(geometry, kLoad, kIndent) + (normals ? load_normal(kLoad, kIndent) : ""),
         normals ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent), geometry.position,
-        area ? grow_area_text(emitter, geometry) : grow_text(emitter, moved));
+        grow);
     return {"wr_bin_tiles", inputs, {}, {}, 0};
 }
 

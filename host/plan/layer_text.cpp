@@ -47,7 +47,9 @@ const char* LayerText::exactly() const { return emitter.precision(layer) == Prec
 
 std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
     if (!layer.footprint) return "(wr_real)(0)";
-    return fmt::format("{}(t, {}, {})", over_area() ? "wr_area_lod" : "wr_texture_lod", dx, dy);
+    // One point a pixel is the centre of its area, sampled as if areas were not walked at all.
+    const bool several = over_area() && emitter.scene.filter.taps > 1;
+    return fmt::format("{}(t, {}, {})", several ? "wr_area_lod" : "wr_texture_lod", dx, dy);
 }
 
 std::string LayerText::located(const TextureUse& use, TexelKind kind) {
@@ -86,13 +88,15 @@ std::string LayerText::textured(const TextureUse& use, const char* declared) {
     text += fmt::format("        {} = {};\n", declared, sample_text(use, "c.st", level));
     if (texel_kind(use) != TexelKind::vector && tells_spread()) {
         const char* wrap = use.wrap == Wrap::clamp ? "wr_clamp" : "wr_repeat";
-        section.operations += 58;
+        const std::string share = once("wr_real", "texel", "wr_texel_share(t, c.dx, c.dy)");
+        section.operations += 61;
         loses = true;
         text += fmt::format(
             "        wr_texture moments = wr_texture_at(texels, textures, {0});\n"
-            "        wr_vec3 lost = wr_lost_spread(wr_texture_sample3(moments, {1}(c.st.x), {1}(c.st.y), {2}), "
-            "slope);\n",
-            emitter.texture(use, TexelKind::moments), wrap, level);
+            "        wr_vec3 lost = wr_scale(wr_lost_spread(wr_texture_sample3(moments, {1}(c.st.x), {1}(c.st.y), "
+            "{2}), "
+            "slope), {3});\n",
+            emitter.texture(use, TexelKind::moments), wrap, level, share);
     }
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");

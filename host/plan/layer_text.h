@@ -17,6 +17,9 @@ struct LayerText {
     std::string declared{}, prepared{};
     bool loses = false;  ///< `lost` is declared: what slopes vary by that are finer than a point's share of the area
 
+    bool every_point =
+        false;  ///< `active` is to hold, at each point of a pixel's area, the lanes that want the layer at any
+
     /// Kernel text of a number of the layer, or of three as a vector; `what` names it in messages.
     std::string number(const std::string& what, std::function<double(const Layer&)> of) {
         return emitter.number(layer, what, std::move(of));

@@ -47,11 +47,13 @@ std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::str
         if (layer.ends_with("." + picture) && (found.empty() || found.front() != picture)) found.push_back(layer);
     }
     if (found.size() != 1)
-        throw Error(fmt::format("a [[light]] has picture = {}; {}", quote(picture),
-                                found.empty()
-                                    ? fmt::format("no layer with R, G and B has that name; nearest: {}; there are {}",
-                                                  quote(nearest_name(picture, layers)), quote_list(layers))
-                                    : fmt::format("layers of that name are {}; say which", quote_list(found))));
+        throw Error(fmt::format(
+            "a [[light]] has picture = {}; {}", quote(picture),
+            found.empty()
+                ? (layers.empty() ? std::string("no layer of the frame has R, G and B")
+                                  : fmt::format("no layer with R, G and B has that name; nearest: {}; there are {}",
+                                                quote(nearest_name(picture, layers)), quote_list(layers)))
+                : fmt::format("layers of that name are {}; say which", quote_list(found))));
     std::array<std::string, 3> planes;
     std::ranges::transform(index.match(colours, found.front()), planes.begin(),
                            [&](const std::string& channel) { return std::string(prefix) + channel; });

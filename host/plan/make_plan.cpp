@@ -155,8 +155,8 @@ std::string declare(const Value& value) {
 }
 
 /// One kernel for consecutive sections. Split plans carry values from kernel to kernel through scratch planes.
-PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector<const Section*>& sections,
-                          bool split) {
+PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector<const Section*>& sections, bool split,
+                          bool compiled_numbers) {
     std::set<std::string> inputs, used, loaded, stored;
     std::vector<std::string> outputs;
     for (const Section* section : sections) {
@@ -187,12 +187,12 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
 
     std::string& text = plan.source;
     text += fmt::format(
-        "kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *numbers,\n"
+        "kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *{},\n"
         "    constant const WR_SCALAR *eye_places, global const float *restrict texels, global const uint *restrict "
         "textures,\n"
         "    global const wr_projector *restrict decals, constant const wr_lighting *lighting, constant const wr_light "
         "*lights,\n",
-        name);
+        name, compiled_numbers ? "numbers_in_memory" : "numbers");
     if (plan.projectors > 0)
         text +=
             "    global const wr_projector *restrict projectors, global const uint *restrict lists,\n"
@@ -229,6 +229,15 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
     return kernel;
 }
 
+/// The scene's numbers as text, under the name by which kernels know those in memory.
+std::string numbers_text(const Plan& plan, const NumberSource& source) {
+    std::string values = "0";
+    for (const PlannedNumbers& planned : plan.numbers)
+        for (const double value : numbers_of(planned, source)) values += fmt::format(", (WR_SCALAR){:.17e}", value);
+    // One in front, as an array must not be empty.
+    return fmt::format("constant WR_SCALAR wr_numbers[] = {{{}}};\n#define numbers (wr_numbers + 1)\n\n", values);
+}
+
 }  // namespace
 
 Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available, const PlanOptions& options) {
@@ -244,7 +253,9 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     // The write-combining buffers of a core can hold this many streams, so even half cache lines may bypass the cache.
     constexpr std::size_t kFewOutputs = 3;
     plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
-                  ("#include \"wrinkle.clh\"\n\n" + user_text(emitter) + emitter.helpers + bins);
+                  ("#include \"wrinkle.clh\"\n\n" +
+                   (options.compiled_numbers ? numbers_text(plan, {scene, available.cryptomatte}) : std::string()) +
+                   user_text(emitter) + emitter.helpers + bins);
 
     // Not in split plans, whose kernels add to planes: blocks may overlap, and a pixel would be added to twice. Not
     // with neighbours, which are loaded as the row of pixels one further on.
@@ -252,7 +263,7 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
 
     std::set<std::string> inputs;
     const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {
-        plan.kernels.push_back(emit_kernel(plan, name, together, options.split));
+        plan.kernels.push_back(emit_kernel(plan, name, together, options.split, options.compiled_numbers));
         const PlannedKernel& kernel = plan.kernels.back();
         inputs.insert(kernel.inputs.begin(), kernel.inputs.end());
         plan.outputs.insert(plan.outputs.end(), kernel.outputs.begin(), kernel.outputs.end());

@@ -160,14 +160,17 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
     const bool spread = at.tells_spread(), area = at.over_area();
     std::string text = area ? "        wr_real lost;\n" : "";
     std::string walk;
-    if (area) {
-        // A layer may have several noises, each with octaves of its own to hold from point to point.
+    if (area && at.emitter.scene.filter.taps > 1) {
+        // A layer may have several noises, each with octaves of its own to hold from point to point. A point's value
+        // may serve others, so what the point itself wants of the layer, by a texture of its mask, does not count.
+        at.every_point = true;
         const std::string held = fmt::format("held_{}", 4 * first);
         at.declared += fmt::format("        wr_field {}[{}];\n", held, l.octaves);
-        text +=
-            fmt::format("        wr_walk walk = {{tap, taps.count - (wr_real)((WR_SCALAR)tap), {}, wanted_{}, {}}};\n",
-                        space.step, at.emitter.index_of(at.layer), held);
+        text += fmt::format("        wr_walk walk = {{tap, taps.count - (wr_real)((WR_SCALAR)tap), {}, {}}};\n",
+                            space.step, held);
         walk = ", &walk, &lost";
+    } else if (area) {
+        walk = ", 0, &lost";
     }
     text += fmt::format("        wr_field f = wr_fractal_at({}, {}, {}, {}{});\n", fractal_text(at, l, of, space.pairs),
                         points, at.layer.footprint ? space.footprint : "(wr_real)(0)", space.active, walk);

@@ -50,8 +50,9 @@ struct PlanOptions {
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
     Precisions precision{};
     // Savings, which the benchmark switches off to measure what they are worth:
-    bool skip = true;       ///< groups of pixels that do not want a layer, or lie outside a decal, skip it
-    bool switches = false;  ///< branch at run time around every layer; those of scale 0 are switched off
+    bool skip = true;               ///< groups of pixels that do not want a layer, or lie outside a decal, skip it
+    bool switches = false;          ///< branch at run time around every layer; those of scale 0 are switched off
+    bool compiled_numbers = false;  ///< the scene's numbers are part of the text, so that others need another program
 };
 
 /// Periods of three numbers: the same for all, or one each; 0 for none.

@@ -87,9 +87,8 @@ std::string row_place(const DecalsLayer& table, std::size_t row);
 Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
 /// How many layers from `first` on go into one section.
 std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first);
-/// Kernel text that sets `m`, in [0,1], and `active`, and the planes it reads.
-std::string emit_mask(Emitter& emitter, const Layer& layer, Section& section);
-/// The same in two parts: the factors that come from planes, which hold for the whole pixel, and the rest.
+/// Kernel text that sets `m`, in [0,1], and `active`, in two parts: the factors that come from planes, which hold for
+/// the whole pixel, and the rest.
 struct MaskText {
     std::string planes;  ///< declares m
     std::string rest;    ///< goes on with m, and declares active
@@ -149,7 +148,7 @@ bool wants_spread(const Emitter& emitter);
 
 /// What is known when the lighting is reached.
 struct LightEnd {
-    bool at_taps = false;  ///< `lit`, the mean over the points of the pixel's area
+    bool at_taps = false;  ///< every term of the light is its mean over the points of the pixel's area
     bool spread = false;   ///< the covariance of the slopes is known
 };
 Section emit_lighting(Emitter& emitter, const LightEnd& end);

@@ -31,6 +31,13 @@ struct OpenedFrame {
           camera(camera_of_frame(scene, reader, number)),
           frame(frame_of(scene, reader, camera)) {}
 
+    /// The frame, with the ids of the names that another scene's masks have.
+    Frame frame_for(const Scene& scene) const {
+        Frame out = frame;
+        out.cryptomatte = frame_of(scene, reader, camera).cryptomatte;
+        return out;
+    }
+
     void read(const std::vector<std::string>& planes, const std::vector<PlaneOut>& out) const {
         const Size size = reader.size();
         std::vector<float*> rows;
@@ -88,6 +95,7 @@ void bind_frames(nb::module_& module) {
         .def(nb::init<const Scene&, int>(), nb::arg("scene"), nb::arg("number"),
              nb::call_guard<nb::gil_scoped_release>())
         .def_ro("frame", &OpenedFrame::frame)
+        .def("frame_for", &OpenedFrame::frame_for, nb::arg("scene"))
         .def_prop_ro("origin", [](const OpenedFrame& f) { return f.camera.origin; })
         .def_prop_ro("channels", [](const OpenedFrame& f) { return f.reader.channels(); })
         .def("read", &OpenedFrame::read, nb::arg("planes"), nb::arg("out"));

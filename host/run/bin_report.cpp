@@ -1,9 +1,7 @@
 #include "run/bin_report.h"
 
 #include "device/guarded.h"
-#include "io/camera_file.h"
-#include "io/frame_path.h"
-#include "io/gbuffer_reader.h"
+#include "run/open_frame.h"
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
 
@@ -14,7 +12,8 @@ BinReport bin_report(const Device& device, const Scene& scene, const Frame& fram
         Pass pass = evaluate(device, scene, frame);
         Pass::Impl& impl = pass.impl();
         if (!impl.plan.tiles) return BinReport{};
-        const GBufferReader reader(frame_path(scene.gbuffer.file, number), scene.gbuffer);
+        GBufferReader reader = open_frame(scene, number);
+        camera_of_frame(scene, reader, number, CameraCheck::none);  // turns normals of camera space
         const Size size = frame.size;
         PlaneBuffers planes(device, impl.plan.tiles->inputs, std::size_t{size.width} * size.height, sizeof(float));
         std::vector<float*> into;

@@ -16,12 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Channel name of an output plane: vectors as .X .Y .Z, so that other programs show them as layers.
+/// Channel name of an output plane: components as .X .Y .Z, .XX .XY .YY, so that other programs show them as layers.
 std::string channel_name(const std::string& plane) {
-    const std::size_t dot = plane.rfind('.');
-    if (dot == std::string::npos) return plane;
     std::string name = plane;
-    name[dot + 1] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[dot + 1])));
+    for (std::size_t i = plane.rfind('.'); i < plane.size(); ++i)
+        name[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[i])));
     return name;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <utility>
+#include <tuple>
 
 #include "device/work_group.h"
 #include "layers/kinds.h"
@@ -124,21 +124,30 @@ Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const Pa
 void Pass::Impl::set_camera(const Camera& other) {
     if (camera_kind(other, size) != kind)
         throw Error("the new camera is of another kind (pinhole, parallel, general) than the one the pass is made for");
-    camera = other;
-    upload_constants();
+    change([&] { camera = other; });
 }
 
 void Pass::Impl::set_parameters(const Scene& other) {
     const LayerKinds kinds = layer_kinds();
     scene::require_same_structure(scene::structure_of(kinds, scene), scene::check_scene(kinds, other));
-    Scene before = std::exchange(scene, other);
-    std::vector<PlannedDecals> tables = plan.tables;
-    try {
+    change([&] {
+        scene = other;
         for (PlannedDecals& table : plan.tables) table.take_rows(table, {scene, cryptomatte});
+    });
+}
+
+void Pass::Impl::change(const std::function<void()>& what) {
+    const auto state = [this] {
+        return std::tie(camera, scene, plan.tables, plan.projectors, bins, frame, numbers, eye_places, decals,
+                        light_setup, lights);
+    };
+    auto before = std::make_tuple(camera, scene, plan.tables, plan.projectors, bins, frame, numbers, eye_places, decals,
+                                  light_setup, lights);
+    try {
+        what();
         upload_constants();
     } catch (...) {
-        scene = std::move(before);
-        plan.tables = std::move(tables);
+        state() = std::move(before);
         throw;
     }
 }

@@ -45,6 +45,8 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
 
     void set_camera(const Camera& other);
     void set_parameters(const Scene& other);
+    /// Makes a change of what the constants are computed from, and uploads them; when that throws, all is as it was.
+    void change(const std::function<void()>& what);
     /// Computes the constants that depend on the camera and on the scene's numbers, and uploads them.
     void upload_constants();
     /// Evaluates the rows, or only `some` of their work-items where any are given.

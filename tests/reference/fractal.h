@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "tests/reference/noise.h"
@@ -36,9 +38,13 @@ T octave_weight(T cells) {
     return saturate(2 - 2 * cells);
 }
 
-/// Fractals of noise with octaves above the footprint's Nyquist frequency faded to their means. Sum and turbulence:
-/// Perlin 1985, of n and |n|; ridged multifractal: Musgrave, in Ebert et al., "Texturing and Modeling", 2003.
-/// `footprint`: longest of |dp/dx|, |dp/dy|; 0 keeps every octave. The gradient is that of a constant footprint.
+/// Half the range of a noise within a pixel, per side of the pixel and length of the gradient.
+inline constexpr double crease = 0.4;
+
+/// Fractals of noise with octaves above the footprint's Nyquist frequency faded to their means, and with |n| as its
+/// mean over the pixel. Sum and turbulence: Perlin 1985, of n and |n|; ridged multifractal: Musgrave, in Ebert et al.,
+/// "Texturing and Modeling", 2003. `footprint`: longest of |dp/dx|, |dp/dy|; 0 keeps every octave. The gradient is that
+/// of a constant footprint.
 template <class T>
 NoiseValue<T> fractal(const Fractal<T>& f, const OctaveNoise<T>& noise, const NoiseMeans<T>& means, Vec<T> p,
                       T footprint) {
@@ -50,14 +56,20 @@ NoiseValue<T> fractal(const Fractal<T>& f, const OctaveNoise<T>& noise, const No
         n.gradient = n.gradient * frequency;
         T mean = means.value;
         if (f.kind != Octaves::sum) {
-            const T sign = n.value < 0 ? T(-1) : n.value > 0 ? T(1) : T(0);
-            n = {n.value * sign, n.gradient * sign};
+            // |n| as the mean of |n + d| over d in [-range, range]: its primitive is d |d| / 2.
+            const T range = crease * footprint * length(n.gradient);
+            const auto primitive = [](T d) { return d * std::abs(d) / 2; };
+            const T sign = range > 0 ? std::clamp(n.value / range, T(-1), T(1)) : T((n.value > 0) - (n.value < 0));
+            const T magnitude =
+                range > 0 ? (primitive(n.value + range) - primitive(n.value - range)) / (2 * range) : std::abs(n.value);
             mean = means.magnitude;
-        }
-        if (f.kind == Octaves::ridged) {
-            const T ridge = f.offset - n.value;
-            n = {ridge * ridge, n.gradient * (-2 * ridge)};
-            mean = f.offset * f.offset - 2 * f.offset * means.magnitude + means.square;
+            if (f.kind == Octaves::ridged) {
+                n.gradient = n.gradient * (2 * n.value - 2 * f.offset * sign);
+                n.value = f.offset * f.offset - 2 * f.offset * magnitude + n.value * n.value + range * range / 3;
+                mean = f.offset * f.offset - 2 * f.offset * means.magnitude + means.square;
+            } else {
+                n = {magnitude, n.gradient * sign};
+            }
         }
         n = {share * n.value + (1 - share) * mean, n.gradient * share};
         if (f.kind == Octaves::ridged) {

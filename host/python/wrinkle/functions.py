@@ -28,11 +28,11 @@ def eval(name: str, *, precision: str = "standard", fp64: bool = False, device=N
     for parameter, columns, unit, meaning in about["parameters"]:
         if parameter not in arguments:
             continue
-        array = np.asarray(arguments.pop(parameter), kind)
-        array = array[..., None] if len(columns) == 1 else array
+        given = np.asarray(arguments.pop(parameter), kind)
+        array = given[..., None] if len(columns) == 1 else given
         if array.ndim != 2 or array.shape[1] != len(columns):
             wanted = "(rows,)" if len(columns) == 1 else f"(rows, {len(columns)})"
-            raise _wrinkle.Error(f'{name}: "{parameter}" ({meaning}, {unit}) has the shape {wanted}; found {array.shape}')
+            raise _wrinkle.Error(f'{name}: "{parameter}" ({meaning}, {unit}) has the shape {wanted}; found {given.shape}')
         rows = len(array) if rows is None else rows
         inputs.update({column: np.ascontiguousarray(array[:, k]) for k, column in enumerate(columns)})
     settings = {key: os.fspath(value) if isinstance(value, (str, os.PathLike)) else np.atleast_1d(value).tolist()

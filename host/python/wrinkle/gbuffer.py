@@ -97,11 +97,13 @@ class GBuffer:
                 raise Error(f'plane "{name}" is needed; there are {", ".join(self.names)}')
         return {name: self._planes[name] for name in names}
 
-    def _frame(self, objects: Iterable[str] = ()):
+    def _frame(self, scene: Scene | None = None):
+        """What a pass may count on, with the ids of the objects that the scene names."""
         if self._opened:
-            return self._opened.frame
+            return self._opened.frame_for(scene._scene) if scene else self._opened.frame
         height, width = self._shape
-        return _wrinkle.Frame(width, height, self.camera, set(self._planes), self.ray_depth, list(objects))
+        return _wrinkle.Frame(width, height, self.camera, set(self._planes), self.ray_depth,
+                              list(scene._scene.objects) if scene else [])
 
     def _add_role(self, role: str, value):
         if role not in _roles and role != "cryptomatte":

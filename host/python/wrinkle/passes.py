@@ -37,7 +37,7 @@ class Pass:
     """
 
     def __init__(self, scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False):
-        frame = gbuffer._frame(scene._scene.objects)
+        frame = gbuffer._frame(scene)
         self._start(_wrinkle.evaluate(device_of(device), scene._scene, frame, lanes, fp64), gbuffer, fp64)
 
     def _start(self, built, gbuffer: GBuffer, fp64: bool):
@@ -96,7 +96,7 @@ def evaluate(scene: Scene, gbuffer: GBuffer | None = None, *, device=None, lanes
 def accumulate_decals(scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False) -> np.ndarray:
     """The volume gradients of a scene's decals, (height, width, 3), without any normal: project them onto the one you
     have: g = v - n (n . v), then normalize(n - g)."""
-    built = _wrinkle.accumulate_decals(device_of(device), scene._scene, gbuffer._frame(), lanes, fp64)
+    built = _wrinkle.accumulate_decals(device_of(device), scene._scene, gbuffer._frame(scene), lanes, fp64)
     return Pass.__new__(Pass)._start(built, gbuffer, fp64).run(gbuffer)["volume_gradient"]
 
 
