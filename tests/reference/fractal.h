@@ -38,9 +38,6 @@ T octave_weight(T cells) {
     return saturate(2 - 2 * cells);
 }
 
-/// Half the range of a noise within a pixel, per side of the pixel and length of the gradient.
-inline constexpr double crease = 0.4;
-
 /// Fractals of noise with octaves above the footprint's Nyquist frequency faded to their means, and with |n| as its
 /// mean over the pixel. Sum and turbulence: Perlin 1985, of n and |n|; ridged multifractal: Musgrave, in Ebert et al.,
 /// "Texturing and Modeling", 2003. `footprint`: longest of |dp/dx|, |dp/dy|; 0 keeps every octave. The gradient is that
@@ -57,7 +54,7 @@ NoiseValue<T> fractal(const Fractal<T>& f, const OctaveNoise<T>& noise, const No
         T mean = means.value;
         if (f.kind != Octaves::sum) {
             // |n| as the mean of |n + d| over d in [-range, range]: its primitive is d |d| / 2.
-            const T range = crease * footprint * length(n.gradient);
+            const T range = footprint * length(n.gradient) / 2;  // half of that across the pixel
             const auto primitive = [](T d) { return d * std::abs(d) / 2; };
             const T sign = range > 0 ? std::clamp(n.value / range, T(-1), T(1)) : T((n.value > 0) - (n.value < 0));
             const T magnitude =
