@@ -25,6 +25,7 @@ def test_every_function_is_named():
     (lambda: wrinkle.eval("resolv", n=[[0, 0, 1]]), 'did you mean "resolve"'),
     (lambda: wrinkle.eval("resolve", n=[[0, 0, 1]], q=3), 'no parameter or setting "q"'),
     (lambda: wrinkle.eval("resolve", n=[[0, 1]]), "(rows, 3); found (1, 2)"),
+    (lambda: wrinkle.eval("displace", h=np.zeros((5, 3))), "(rows,); found (5, 3)"),
     (lambda: wrinkle.eval("resolve", n=[[0, 0, 1]]), '"g'),
     (lambda: wrinkle.eval("resolve", n=[[0, 0, 1]], g=[[0, 0, 1]] * 2), "rows"),
     (lambda: wrinkle.eval("resolve", n=[[0, 0, 1]], g=[[0, 0, 1]], precision="exakt"), '"exakt"'),

@@ -1,6 +1,7 @@
 """Passes: the same bits as the command line, in threads, without growing, interruptible."""
 
 import gc
+import pathlib
 import resource
 import signal
 import subprocess
@@ -60,6 +61,17 @@ def test_decals_and_screen_derivatives(gbuffer):
     dp_dx, dp_dy = wrinkle.screen_derivatives(gbuffer)
     pixel = 2 * 2 * np.tan(0.5) / SHAPE[0]
     assert np.allclose(dp_dx, (pixel, 0, 0), atol=1e-6) and np.allclose(dp_dy, (0, -pixel, 0), atol=1e-6)
+
+
+def test_decals_on_arrays_know_the_objects_that_a_scene_names(camera, planes):
+    decal = wrinkle.Decal(texture=DATA / "textures" / "cracks_height.png", center=[0, 0, 0], half_size=[1, 1, 0.5],
+                          scale=0.1, mask=wrinkle.Mask(cryptomatte="cube"))
+    nobody = wrinkle.GBuffer(camera=camera, depth=planes["depth"], cryptomatte=np.zeros((*SHAPE, 2), np.float32))
+    assert not wrinkle.accumulate_decals(wrinkle.Scene(layers=[decal]), nobody).any()
+
+
+def test_the_extension_module_has_type_stubs():
+    assert "def devices() -> list[DeviceInfo]" in (pathlib.Path(wrinkle.__file__).parent / "_wrinkle.pyi").read_text()
 
 
 def test_threads_may_have_a_pass_each(gbuffer, noise):
