@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+WRINKLE_HARNESS(camera_fuzz)(const std::uint8_t* data, std::size_t size) {
     return wrinkle::fuzz::with_file(data, size, ".json", [](const std::filesystem::path& file) {
         wrinkle::io::read_camera_json(file, {1920, 1080});
     });

@@ -11,6 +11,11 @@
 
 #include "wrinkle/error.h"
 
+/// Begins a harness. The test that reads the kept corpus again has them all in one program, and gives each its name.
+#ifndef WRINKLE_HARNESS
+#define WRINKLE_HARNESS(name) extern "C" int LLVMFuzzerTestOneInput
+#endif
+
 /// What the harnesses share. Each is a program of libFuzzer's, which calls LLVMFuzzerTestOneInput with bytes of its own
 /// making, mutated from a corpus; run.sh runs them all.
 namespace wrinkle::fuzz {

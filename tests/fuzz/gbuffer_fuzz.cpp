@@ -6,11 +6,11 @@
 #include "tests/fuzz/fuzz.h"
 
 /// Roles, cameras in headers, Cryptomatte manifests and the pixels of a frame: by ZIP blocks and by OpenImageIO.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+WRINKLE_HARNESS(gbuffer_fuzz)(const std::uint8_t* data, std::size_t size) {
     return wrinkle::fuzz::with_file(data, size, ".exr", [](const std::filesystem::path& file) {
         const wrinkle::GBufferReader reader(file);
         const auto [width, height] = reader.size();
-        if (std::uint64_t{width} * height > 1 << 22) return;
+        if (std::uint64_t{width} * height > 1 << 16) return;
         const auto planes = reader.planes();
         std::vector<std::vector<float>> values(planes.size(), std::vector<float>(std::size_t{width} * height));
         std::vector<float*> out;
@@ -18,7 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         reader.cryptomatte().names();
         reader.read_rows(0, height, planes, out);
         try {
-            wrinkle::read_frame_camera({.file = {}, .exr = true}, reader, 0);
+            wrinkle::CameraSource from;
+            from.exr = true;
+            wrinkle::read_frame_camera(from, reader, 0);
         } catch (const wrinkle::Error&) {}  // most have no camera
     });
 }

@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+WRINKLE_HARNESS(nvdb_fuzz)(const std::uint8_t* data, std::size_t size) {
     return wrinkle::fuzz::with_file(data, size, ".nvdb",
                                     [](const std::filesystem::path& file) { wrinkle::load_volume(file, ""); });
 }

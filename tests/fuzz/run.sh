@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# run.sh FOLDER SECONDS: runs every harness of the built FOLDER for SECONDS from the corpus that FOLDER/corpus keeps, which
-# begins with the files of data/. Fails at the first find, which lies in FOLDER/finds then.
+# run.sh FOLDER SECONDS [HARNESS...]: runs the harnesses (all, unless some are named) of the built FOLDER for SECONDS
+# each, from the corpus that FOLDER/corpus keeps, which begins with the files of data/ and with corpus/*.zip of this
+# folder. Fails at the first find, which lies in FOLDER/finds then.
 set -euo pipefail
 folder=$(readlink -f "$1")
 seconds=$2
-data=$(readlink -f "$(dirname "$0")/../../data")
+shift 2
+here=$(readlink -f "$(dirname "$0")")
+data=$here/../../data
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=0 UBSAN_OPTIONS=print_stacktrace=1
-export WRINKLE_FUZZ_READER=$folder/wrinkle
 
 # Longer seeds are slow to mutate, and few numbers of them are looked at.
 seeds() { find "$data" -type f -size -64k "$@"; }
@@ -24,14 +26,27 @@ seeds_of() {
     esac
 }
 
-for program in "$folder"/tests/fuzz/*_fuzz; do
-    name=$(basename "$program")
+# Texts show all that they can in little, and a node of a NanoVDB tree takes 270 kB as it lies in a file.
+longest_of() {
+    case $1 in
+        scene_fuzz | decal_csv_fuzz | decal_toml_fuzz | camera_fuzz | costs_fuzz) echo 4096 ;;
+        nvdb_fuzz) echo 400000 ;;
+        *) echo 65536 ;;
+    esac
+}
+
+[ $# -gt 0 ] || set -- $(cd "$folder/tests/fuzz" && ls -d ./*_fuzz)
+for name in "${@#./}"; do
     corpus=$folder/corpus/$name
     mkdir -p "$corpus" "$folder/finds"
     seeds_of "$name" | while read -r seed; do cp -n "$seed" "$corpus/$(sha1sum <"$seed" | cut -c1-16)"; done
+    [ ! -f "$here/corpus/$name.zip" ] || python3 -m zipfile -e "$here/corpus/$name.zip" "$corpus"
     log=$folder/finds/$name.log
-    if ! "$program" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=512 \
-        -max_len=65536 -artifact_prefix="$folder/finds/$name-" -print_final_stats=1 >"$log" 2>&1; then
+    longest=$(longest_of "$name")
+    # Twenty times the input, and 256 MB, are what a reader may allocate at once.
+    if ! "$folder/tests/fuzz/$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 \
+        -malloc_limit_mb=$((256 + 20 * longest / 1000000)) -max_len="$longest" -artifact_prefix="$folder/finds/$name-" \
+        -print_final_stats=1 >"$log" 2>&1; then
         tail -n 60 "$log"
         echo "$name: a find, in $folder/finds" >&2
         exit 1
