@@ -81,6 +81,7 @@ std::size_t InputFile::read_at(std::uint64_t offset, void* to, std::size_t size)
 
 std::string InputFile::read_all() const {
     // The size is a hint only: files grow, and those of /proc have none.
+    check_memory(name(), static_cast<double>(size_), "all of it");
     std::string bytes(static_cast<std::size_t>(size_) + 1, '\0');
     for (std::size_t filled = 0;;) {
         const std::size_t got = read_at(filled, bytes.data() + filled, bytes.size() - filled);

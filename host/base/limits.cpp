@@ -60,6 +60,19 @@ std::optional<double> cgroup_limit() {
     return least;
 }
 
+/// What this process has taken: of the machine's memory, and of addresses, which ulimit -v counts.
+struct Taken {
+    double memory = 0, addresses = 0;
+};
+
+Taken taken_memory() {
+    std::ifstream in("/proc/self/statm");
+    double addresses = 0, memory = 0;  // in pages; nothing where there is no /proc
+    in >> addresses >> memory;
+    const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
+    return {memory * page, addresses * page};
+}
+
 bool is_within(const fs::path& folder, const fs::path& file) {
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
@@ -91,25 +104,27 @@ void set_limits(const Limits& limits) {
 const Limits& limits() { return current(); }
 
 MemoryLimit memory_limit() {
-    MemoryLimit least{std::numeric_limits<double>::infinity(), ""};
-    const auto take = [&](std::optional<double> bytes, const char* whose) {
-        if (bytes && *bytes > 0 && *bytes < least.bytes) least = {*bytes, whose};
+    const Taken taken = taken_memory();
+    MemoryLimit least{std::numeric_limits<double>::infinity(), 0, ""};
+    const auto take = [&](std::optional<double> bytes, double counted, const char* whose) {
+        if (bytes && *bytes > 0 && *bytes - counted < least.bytes - least.taken) least = {*bytes, counted, whose};
     };
-    take(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), "the machine");
-    take(cgroup_limit(), "the cgroup");
+    take(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), taken.memory,
+         "the machine");
+    take(cgroup_limit(), taken.memory, "the cgroup");
     if (rlimit own{}; ::getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY)
-        take(static_cast<double>(own.rlim_cur), "the process (ulimit -v)");
-    take(memory_of_environment(), "WRINKLE_MEMORY");
-    take(static_cast<double>(limits().memory), "--memory");
+        take(static_cast<double>(own.rlim_cur), taken.addresses, "the process (ulimit -v)");
+    take(memory_of_environment(), taken.memory, "WRINKLE_MEMORY");
+    take(static_cast<double>(limits().memory), taken.memory, "--memory");
     return least;
 }
 
 void check_memory(const std::string& name, double bytes, const std::string& what) {
     if (bytes <= kHarmless) return;
     const MemoryLimit limit = memory_limit();
-    if (bytes <= limit.bytes) return;
-    throw Error(fmt::format("{}: {} would take {} of memory; the limit of {} is {}", name, what, bytes_text(bytes),
-                            limit.whose, bytes_text(limit.bytes)));
+    if (limit.taken + bytes <= limit.bytes) return;
+    throw Error(fmt::format("{}: {} would take {} of memory beside the {} in use; the limit of {} is {}", name, what,
+                            bytes_text(bytes), bytes_text(limit.taken), limit.whose, bytes_text(limit.bytes)));
 }
 
 bool may_be_allowed(const fs::path& file) {

@@ -12,14 +12,16 @@ namespace wrinkle {
 /// As set_limits() set them.
 const Limits& limits();
 
-/// The least of all limits of memory, and whose it is.
+/// The limit of memory that leaves least room, and whose it is.
 struct MemoryLimit {
     double bytes = 0;
+    double taken = 0;   ///< of them, by this process so far
     std::string whose;  ///< "--memory", "the cgroup"
 };
 MemoryLimit memory_limit();
 
-/// Throws Error, beginning with `name`, when `what`, which takes `bytes`, is more than memory_limit() allows.
+/// Throws Error, beginning with `name`, when `what`, which takes `bytes`, is more than memory_limit() leaves. Asked
+/// before everything large, it keeps the whole process within its limit.
 void check_memory(const std::string& name, double bytes, const std::string& what);
 
 /// Whether a name leads into the sandbox, or there is no sandbox. The file behind a name may change, so is_allowed()

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/only_errors.h"
 #include "base/text_file.h"
 #include "device/kernel_sources.h"
 #include "device/program_cache.h"
@@ -84,7 +85,7 @@ std::filesystem::path user_costs_file() {
 
 std::vector<DeviceCosts> read_costs(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) return {};
-    return parse(read_text(file, "a table of costs"), file.string());
+    return only_errors(file.c_str(), [&] { return parse(read_text(file, "a table of costs"), file.string()); });
 }
 
 void write_costs(const std::filesystem::path& file, const std::vector<DeviceCosts>& tables) {

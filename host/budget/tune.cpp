@@ -8,7 +8,6 @@
 #include "budget/choose_precision.h"
 #include "budget/error_sample.h"
 #include "device/guarded.h"
-#include "io/frame_path.h"
 #include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
@@ -39,9 +38,9 @@ public:
         store_ = TextureStore(device_);  // of one scene at a time
         scene_.lighting = {};
         scene_.output = {};
-        frame_ = describe_frame(scene_, 0);
+        reader_.emplace(open_frame(scene_, 0));
+        frame_ = frame_of(scene_, *reader_, camera_of_frame(scene_, *reader_, 0, CameraCheck::none));
         kind_ = camera_kind(frame_.camera, frame_.size);
-        reader_.emplace(frame_path(scene_.gbuffer.file, 0), scene_.gbuffer);
         say("nothing but the frame");
         const Scene empty = with({});
         empty_ = time(empty, {}, nullptr), empty_in_double_ = time(empty, {.fp64 = true}, nullptr);

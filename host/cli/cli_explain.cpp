@@ -43,9 +43,7 @@ std::string join(const std::vector<std::string>& names) {
 }
 
 /// Warns of a camera that "wrinkle run" would refuse: it makes no difference to the plan.
-void warn_of_camera(const Scene& scene, int number) {
-    const GBufferReader reader = open_frame(scene, number);
-    const FrameCamera camera = read_frame_camera(scene.camera, reader, number);
+void warn_of_camera(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera) {
     try {
         check_residual(camera, scene.camera.max_residual, reader);
     } catch (const Error& error) { fmt::print(stderr, "wrinkle: warning: {}\n", error.what()); }
@@ -154,8 +152,10 @@ void explain(const ExplainArguments& arguments) {
     if (arguments.max_error) scene.budget.max_error = arguments.max_error;
     check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
-    const Frame frame = describe_frame(scene, number);
-    warn_of_camera(scene, number);
+    GBufferReader reader = open_frame(scene, number);
+    const FrameCamera camera = camera_of_frame(scene, reader, number, CameraCheck::none);
+    const Frame frame = frame_of(scene, reader, camera);
+    warn_of_camera(scene, reader, camera);
     OnDevice on;
     const auto open = [&] {
         if (!on.device) on.device = open_device(arguments.device, arguments.lanes);
@@ -164,7 +164,7 @@ void explain(const ExplainArguments& arguments) {
     if (!arguments.device.empty() || arguments.lanes != 0) open();
     if (scene.budget.max_error) on.budget.emplace(scene, camera_kind(frame.camera, frame.size), costs_of(open().info));
     const Plan plan = plan_for(scene, frame, options_of(on.budget));
-    if (!plan.tables.empty()) on.bins = bin_report(open(), scene, frame, number);
+    if (!plan.tables.empty()) on.bins = bin_report(open(), scene, frame, reader);
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
     const std::vector<VolumeReport> volumes = volumes_of(plan);

@@ -12,6 +12,7 @@
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
+#include "io/whole_planes.h"
 #include "layers/kinds.h"
 #include "run/open_frame.h"
 #include "scene/check_scene.h"
@@ -49,18 +50,11 @@ void scatter(ScatterArguments arguments) {
     const int number = arguments.frame.value_or(0);
     GBufferReader reader = open_frame(scene, number);
     refuse_to_replace(arguments.file, std::array{reader.path(), frame_path(scene.camera.file, number)});
-    camera_of_frame(scene, reader, number);
-    const Frame frame = describe_frame(scene, number);
-    std::map<std::string, std::vector<float>> pixels;
-    for (const std::string& name : planes_of(scene.gbuffer.geometry))
-        if (reader.has_plane(name)) pixels[name].resize(std::size_t{frame.size.width} * frame.size.height);
+    const Frame frame = frame_of(scene, reader, camera_of_frame(scene, reader, number));
     std::vector<std::string> names;
-    std::vector<float*> into;
-    for (auto& [name, values] : pixels) {
-        names.push_back(name);
-        into.push_back(values.data());
-    }
-    reader.read_rows(0, frame.size.height, names, into);
+    for (const std::string& name : planes_of(scene.gbuffer.geometry))
+        if (reader.has_plane(name)) names.push_back(name);
+    const auto pixels = io::read_whole_planes(reader, names);
     ScatterOptions& options = arguments.options;
     options.half_size = {arguments.size[0], arguments.size[1]};
     options.atlas = {arguments.atlas[0], arguments.atlas[1]};

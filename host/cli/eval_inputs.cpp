@@ -12,6 +12,7 @@
 #include "io/channel_names.h"
 #include "io/gbuffer_reader.h"
 #include "io/npy_file.h"
+#include "io/whole_planes.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -64,12 +65,9 @@ Array<T> read_picture(const Parameter& parameter, const EvalFile& from) {
     const Size size = reader.size();
     std::vector<std::string> names = channels_of(reader, from.layer, parameter.columns().size());
     for (std::string& name : names) name = "channel:" + name;
-    Planes<float> planes(names.size(), std::vector<float>(std::size_t{size.width} * size.height));
-    std::vector<float*> out;
-    for (std::vector<float>& plane : planes) out.push_back(plane.data());
-    reader.read_rows(0, size.height, names, out);
+    const auto planes = io::read_whole_planes(reader, names);
     Array<T> array{{size.height, size.width}, {}};
-    for (const std::vector<float>& plane : planes) array.planes.emplace_back(plane.begin(), plane.end());
+    for (const std::string& name : names) array.planes.emplace_back(planes.at(name).begin(), planes.at(name).end());
     return array;
 }
 
@@ -156,7 +154,8 @@ EvalInputs<T> read_inputs(const Function& function, const std::vector<EvalFile>&
     }
     if (csv) {
         const std::string name = *csv == "-" ? "standard input" : csv->string();
-        inputs.table.emplace(*csv == "-" ? read_standard_input() : read_text(*csv, "a CSV file"), name);
+        inputs.table.emplace(*csv == "-" ? read_standard_input(kAnyLength) : read_text(*csv, "a CSV file", kAnyLength),
+                             name);
         std::vector<std::string> missing;
         for (const Parameter& parameter : function.parameters)
             for (const std::string& column : parameter.columns()) {

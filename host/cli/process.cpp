@@ -122,7 +122,7 @@ void prepare_process() {
 void add_limit_options(CLI::App& app) {
     auto arguments = std::make_shared<LimitArguments>();
     app.add_option("--memory", arguments->gigabytes,
-                   "gigabytes that a file, or what is planned from it, may take (also: WRINKLE_MEMORY)")
+                   "gigabytes that it may take; what needs more is refused before (also: WRINKLE_MEMORY)")
         ->type_name("GB")
         ->check(CLI::PositiveNumber);
     app.add_option("--sandbox", arguments->sandbox,

@@ -82,7 +82,10 @@ PlannedTexture volume_of(const std::filesystem::path& name, Kind kind) {
         throw Error(fmt::format("{}: the grid {} holds {}; {} are expected", file, quote(info.grid),
                                 info.channels == 3 ? "vectors" : "numbers",
                                 info.channels == 3 ? "numbers" : "vectors"));
-    return {{.file = file}, kind == Kind::smooth_volume ? TexelKind::volume_smooth : TexelKind::volume, grid};
+    return {.use = {.file = file},
+            .kind = kind == Kind::smooth_volume ? TexelKind::volume_smooth : TexelKind::volume,
+            .grid = grid,
+            .vectors = info.channels == 3};
 }
 
 void append_lattice(std::vector<double>& to, double frequency, double lacunarity) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/names.h"
+#include "base/only_errors.h"
 #include "base/text_file.h"
 #include "io/camera_check.h"
 #include "wrinkle/error.h"
@@ -15,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-json parse(const std::filesystem::path& file) {
+json parse_json(const std::filesystem::path& file) {
     const std::string content = read_text(file, "a camera file");
     try {
         auto value = json::parse(content);
@@ -36,6 +37,10 @@ json parse(const std::filesystem::path& file) {
     }
     throw Error(
         fmt::format("{}: not a camera file: expected {{\"width\", \"height\", \"view\", \"proj\"}}", file.string()));
+}
+
+json parse(const std::filesystem::path& file) {
+    return only_errors(file.c_str(), [&] { return parse_json(file); });
 }
 
 Mat4 matrix(const json& camera, const char* key, const std::filesystem::path& file) {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/only_errors.h"
 #include "io/csv_rows.h"
 #include "wrinkle/error.h"
 
@@ -41,6 +42,10 @@ bool parse(std::string_view text, T& value) {
 }  // namespace
 
 CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
+    only_errors(name_.c_str(), [&] { read(text); });
+}
+
+void CsvTable::read(std::string_view text) {
     text_.reserve(text.size());
     read_csv_rows(text, name_, CsvComments::none, [this](std::uint32_t line, std::span<const std::string_view> cells) {
         if (names_.empty()) {

@@ -24,6 +24,8 @@ public:
     std::vector<T> numbers(const std::string& name) const;
 
 private:
+    void read(std::string_view text);
+
     std::string name_, text_;  ///< text_: all cells, one after another
     std::vector<std::string> names_;
     std::vector<std::size_t> ends_;     ///< where each cell ends in text_

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/names.h"
+#include "base/only_errors.h"
 #include "io/band_reader.h"
 #include "io/channel_names.h"
 #include "io/image_open.h"
@@ -96,6 +97,7 @@ struct GBufferReader::Impl {
                             path.string(), place.name, place.lossy));
     }
 
+    void open(const GBufferSource& source);
     bool sample_packed_normals(NormalKind kind) const;
     io::ObjectStorage sample_objects() const;
     void finish_normals(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
@@ -137,21 +139,23 @@ bool GBufferReader::Impl::sample_packed_normals(NormalKind kind) const {
     return io::looks_packed(planes[0], planes[1], planes[2]);
 }
 
+void GBufferReader::Impl::open(const GBufferSource& source) {
+    io::OpenImage opened(path);
+    image = io::list_parts(opened.input(), path, {source.view, source.overscan});
+    for (const auto& place : image.channels) {
+        channels.push_back(place.name);
+        places[place.name] = &place;
+    }
+    roles = detect(path, channels, source, image.metadata);
+    reader = std::make_unique<io::BandReader>(std::move(opened), image.size, image.parts);
+    if (roles.cryptomatte_ranks > 0) cryptomatte = CryptomatteManifest(image.metadata, roles.cryptomatte_layer, path);
+    packed_normals = sample_packed_normals(source.normals);
+}
+
 GBufferReader::GBufferReader(std::filesystem::path file, const GBufferSource& source)
     : impl_(std::make_unique<Impl>()) {
-    io::OpenImage opened(file);
     impl_->path = std::move(file);
-    impl_->image = io::list_parts(opened.input(), impl_->path, {source.view, source.overscan});
-    for (const auto& place : impl_->image.channels) {
-        impl_->channels.push_back(place.name);
-        impl_->places[place.name] = &place;
-    }
-    impl_->roles = detect(impl_->path, impl_->channels, source, metadata());
-    impl_->reader = std::make_unique<io::BandReader>(std::move(opened), impl_->image.size, impl_->image.parts);
-    if (impl_->roles.cryptomatte_ranks > 0) {
-        impl_->cryptomatte = CryptomatteManifest(metadata(), impl_->roles.cryptomatte_layer, impl_->path);
-    }
-    impl_->packed_normals = impl_->sample_packed_normals(source.normals);
+    only_errors(impl_->path.c_str(), [&] { impl_->open(source); });
 }
 
 GBufferReader::~GBufferReader() = default;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/names.h"
+#include "base/only_errors.h"
 #include "base/text_file.h"
 #include "io/npy_header.h"
 #include "wrinkle/error.h"
@@ -31,11 +32,9 @@ void take(std::string_view bytes, std::vector<T>& values, const std::string& nam
     }
 }
 
-}  // namespace
-
 template <class T>
-NpyArray<T> read_npy(const std::filesystem::path& file) {
-    const std::string text = read_text(file, "an array (.npy)"), name = file.string();
+NpyArray<T> read_any_npy(const std::filesystem::path& file) {
+    const std::string text = read_text(file, "an array (.npy)", kAnyLength), name = file.string();
     const NpyHeader header = read_npy_header(text, name);
     if (header.type.empty()) throw Error(fmt::format("{} holds records; needs a plain array of numbers", name));
     const std::size_t size = header.type == "<f4" ? 4 : header.type == "<f8" ? 8 : 0;
@@ -54,6 +53,13 @@ NpyArray<T> read_npy(const std::filesystem::path& file) {
     else
         take<double>(bytes, array.values, name);
     return array;
+}
+
+}  // namespace
+
+template <class T>
+NpyArray<T> read_npy(const std::filesystem::path& file) {
+    return only_errors(file.c_str(), [&] { return read_any_npy<T>(file); });
 }
 
 template NpyArray<float> read_npy(const std::filesystem::path&);

@@ -121,7 +121,7 @@ bool NpyRecords::is(const std::filesystem::path& file) {
     return start == npy_magic;
 }
 
-NpyRecords::NpyRecords(const std::filesystem::path& file) : bytes_(read_text(file, "an array (.npy)")) {
+NpyRecords::NpyRecords(const std::filesystem::path& file) : bytes_(read_text(file, "an array (.npy)", kAnyLength)) {
     const std::string name = file.string();
     const NpyHeader header = read_npy_header(bytes_, name);
     if (!header.type.empty())

@@ -225,9 +225,11 @@ std::pair<RawVolume, std::string> io::read_grid(const InputFile& file, const std
 
 Volume load_volume(const fs::path& file, const std::string& grid) {
     const InputFile opened(file, "a volume file");
-    auto [raw, name] = read_wherever(opened, grid, true);
-    VolumeInfo info = info_of(file, name, raw);
-    return told(file, "{}: cannot be used{}", [&] { return assemble(opened, std::move(raw), std::move(info)); });
+    return told(file, "{}: cannot be used{}", [&] {
+        auto [raw, name] = read_wherever(opened, grid, true);
+        VolumeInfo info = info_of(file, name, raw);
+        return assemble(opened, std::move(raw), std::move(info));
+    });
 }
 
 VolumeInfo volume_info(const fs::path& file, const std::string& grid) {

@@ -38,11 +38,11 @@ LayerKinds layer_kinds() {
 }
 
 Scene load_scene(const std::filesystem::path& file) {
-    return only_errors("load a scene", [&] { return scene::load_scene(layer_kinds(), file); });
+    return only_errors(file.c_str(), [&] { return scene::load_scene(layer_kinds(), file); });
 }
 
 Figure load_figure(const std::filesystem::path& file) {
-    return only_errors("load a figure", [&] { return scene::load_figure(layer_kinds(), file); });
+    return only_errors(file.c_str(), [&] { return scene::load_figure(layer_kinds(), file); });
 }
 
 void check(const Scene& scene) {

@@ -103,6 +103,7 @@ struct PlannedTexture {
     std::string grid{};                        ///< of a volume
     std::array<double, 4> region{0, 0, 1, 1};  ///< of the image: s and t from, s and t to
     std::string layer{};                       ///< label of the first layer that uses it, for messages
+    bool vectors = false;                      ///< that the kernel text takes the grid to hold
 };
 
 /// A decal that is a layer of its own: every pixel is tested against it, without tiles.

@@ -68,7 +68,10 @@ std::size_t Emitter::volume(const VolumeLayer& layer, TexelKind kind) {
         const PlannedTexture& known = plan.textures[i];
         if (known.kind == kind && known.use.file == layer.file && known.grid == layer.grid) return i;
     }
-    plan.textures.push_back({{.file = layer.file}, kind, layer.grid});
+    plan.textures.push_back({.use = {.file = layer.file},
+                             .kind = kind,
+                             .grid = layer.grid,
+                             .vectors = available.volumes.at({layer.file.string(), layer.grid}).vectors});
     return plan.textures.size() - 1;
 }
 

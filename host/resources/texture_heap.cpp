@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/limits.h"
 #include "io/texture_doubts.h"
 #include "io/volume_file.h"
 #include "resources/volume_heap.h"
@@ -147,6 +148,9 @@ Image finest_level(const Image& image, const PlannedTexture& planned) {
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
     Image level = finest_level(image, planned);
+    // All levels together are a third more; their borders, and the fourth float of three, are of no account.
+    check_memory(planned.use.file.string(), sizeof(float) * 4.0 / 3 * static_cast<double>(level.texels.size()),
+                 fmt::format("its mips from {} x {} texels on", level.width, level.height));
     const std::size_t words = heap.table.size();
     heap.table.resize(words + WR_TEXTURE_WORDS);
     heap.table[words + WR_TEXTURE_WIDTH] = static_cast<std::uint32_t>(level.width);
@@ -178,7 +182,10 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
     };
     const auto load = [&](const PlannedTexture& texture) {
         if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
-            add_volume(heap, load_volume(texture.use.file, texture.grid), texture.kind);
+            const Volume volume = load_volume(texture.use.file, texture.grid);
+            if ((volume.info.channels == 3) != texture.vectors)  // the file is another one than when it was planned
+                throw Error(fmt::format("{}: was replaced while it was read", texture.use.file.string()));
+            add_volume(heap, volume, texture.kind);
         } else if (is_whole(texture)) {
             add_texture(heap, judged(load_bump(texture.use), texture), texture);
         } else {

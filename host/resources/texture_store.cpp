@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "resources/texture_heap.h"
 
 namespace wrinkle {
@@ -26,6 +27,9 @@ std::shared_ptr<const DeviceTextures> TextureStore::get(const std::vector<Planne
     if (known != entries_.end()) return known->textures;
     TextureHeap heap = load_textures(wanted);
     check_fits(heap, device_.info);
+    if (device_.info.type == "cpu")
+        check_memory("the scene", static_cast<double>(heap.texels.size() * sizeof(float)),
+                     "the device's copy of all textures and volumes");
     for (std::string& doubt : heap.doubts)
         if (std::ranges::find(doubts_, doubt) == doubts_.end()) doubts_.push_back(std::move(doubt));
     auto textures = std::make_shared<const DeviceTextures>(

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <optional>
 
+#include "base/limits.h"
+#include "base/names.h"
 #include "io/volume_file.h"
 #include "wrinkle/error.h"
 
@@ -98,6 +101,10 @@ public:
             blocks *= count_[axis];
         }
         check_room(blocks);
+        const double voxels =
+            static_cast<double>(volume.voxels.size()) / Volume::block_voxels * std::pow(shape.edge, 3);
+        check_memory(quote(volume.info.grid), sizeof(float) * (blocks + voxels),
+                     fmt::format("what kernels read of the grid, {:.0f} blocks", blocks));
         heap_.texels.resize(index_ + static_cast<std::size_t>(blocks));
         const std::size_t background = add_constant(-1);
         std::fill_n(heap_.texels.begin() + static_cast<std::ptrdiff_t>(index_), static_cast<std::size_t>(blocks),

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <thread>
 
+#include <fmt/format.h>
+
+#include "base/limits.h"
 #include "run/band_pipeline.h"
 
 namespace wrinkle {
@@ -43,6 +46,10 @@ double FrameRun::run(const std::function<void(double)>& progress) {
     if (condition_ != nullptr) add_missing(names_, condition_->inputs());
     const Size size = pass_.size;
     const std::uint32_t rows = band_rows(size), halo = pass_.plan.neighbours ? 1 : 0;
+    const double bytes_of_pixel =
+        static_cast<double>(sizeof(float) * names_.size() + pass_.bytes_per_output() * pass_.plan.outputs.size());
+    check_memory(reader_.path().string(), kInFlight * bytes_of_pixel * size.width * (rows + 2 * halo),
+                 fmt::format("evaluating {} bands of {} x {} pixels at a time", kInFlight, size.width, rows));
     std::array<Slot, kInFlight> slots;
     for (Slot& slot : slots) {
         slot.inputs = PlaneBuffers(pass_.device, names_, std::size_t{size.width} * (rows + 2 * halo), sizeof(float));

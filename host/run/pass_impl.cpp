@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/limits.h"
 #include "device/work_group.h"
 #include "layers/kinds.h"
 #include "resources/frame_constants.h"
@@ -117,6 +118,9 @@ Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const Pa
     build_seconds = seconds_since(build_start);
     upload_constants();
     const std::size_t pixels = padded(std::size_t{size.width} * size.height);
+    check_memory(of.file.empty() ? "the pass" : of.file.string(),
+                 static_cast<double>(pixels * bytes_per_output() * scratch_names.size()),
+                 fmt::format("what its {} kernels hand on of {} x {} pixels", kernels.size(), size.width, size.height));
     for (std::size_t i = 0; i < scratch_names.size(); ++i)
         scratch.emplace_back(device.context, CL_MEM_READ_WRITE, pixels * bytes_per_output());
 }

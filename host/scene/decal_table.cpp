@@ -39,7 +39,7 @@ std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t t
             reader.end_row();
         }
     };
-    const std::string text = read_text(file, "a table of decals");
+    const std::string text = read_text(file, "a table of decals", kAnyLength);
     check_rows(file, static_cast<std::size_t>(std::ranges::count(text, '\n')));
     io::read_csv_rows(text, file.string(), io::CsvComments::lines, take);
     if (reader.header().empty())
@@ -90,14 +90,14 @@ std::string csv_text(std::span<const DecalColumn* const> columns, const std::vec
 }  // namespace scene
 
 std::vector<Projector> load_decals(const std::filesystem::path& file, std::size_t textures) {
-    return only_errors("load a table of decals", [&] {
+    return only_errors(file.c_str(), [&] {
         if (scene::is_toml(file)) return scene::load_decal_toml(file, textures);
         return io::NpyRecords::is(file) ? scene::load_npy(file, textures) : scene::load_csv(file, textures);
     });
 }
 
 void save_decals(const std::filesystem::path& file, const std::vector<Projector>& rows) {
-    only_errors("save a table of decals", [&] {
+    only_errors(file.c_str(), [&] {
         using namespace scene;
         // Columns that every row leaves at its default are left out.
         std::vector<const DecalColumn*> used;

@@ -165,7 +165,7 @@ std::string toml_value(const DecalColumn& column, const Projector& row) {
 bool is_toml(const std::filesystem::path& file) { return lower(file.extension().string()) == ".toml"; }
 
 std::vector<Projector> load_decal_toml(const std::filesystem::path& file, std::size_t textures) {
-    const std::string text = read_text(file, "a table of decals"), name = file.string();
+    const std::string text = read_text(file, "a table of decals", kAnyLength), name = file.string();
     DecalReader reader(name, textures, DecalReader::Form::toml);
     const std::vector<Piece> pieces = pieces_of(text);
     std::vector<std::vector<Projector>> sound(pieces.size());  // rows of pieces without mistakes

@@ -8,6 +8,7 @@
 #include "io/gbuffer_reader.h"
 #include "io/image_writer.h"
 #include "io/montage.h"
+#include "io/whole_planes.h"
 #include "run/condition.h"
 #include "run/open_frame.h"
 #include "tools/render.h"
@@ -20,13 +21,7 @@ using Planes = std::map<std::string, std::vector<float>>;
 
 Planes read_planes(const GBufferReader& reader, const std::vector<std::string>& names) {
     reader.require(names);
-    const Size size = reader.size();
-    Planes planes;
-    std::vector<float*> into;
-    for (const std::string& name : names)
-        into.push_back((planes[name] = std::vector<float>(std::size_t{size.width} * size.height)).data());
-    reader.read_rows(0, size.height, names, into);
-    return planes;
+    return io::read_whole_planes(reader, names);
 }
 
 /// What a panel shows, whole frame, and how a PNG holds it.
@@ -37,10 +32,11 @@ struct Shown {
 };
 
 /// Condition as a grey, per whole frame.
-Planes show_condition(const Device& device, const Scene& scene, const GBufferReader& reader) {
+Planes show_condition(const Device& device, const Scene& scene, const GBufferReader& reader,
+                      const FrameCamera& camera) {
     constexpr float kWhite = 6;  // powers of ten
     const Size size = reader.size();
-    Condition condition(device, scene, describe_frame(scene));
+    Condition condition(device, scene, frame_of(scene, reader, camera));
     const Planes in = read_planes(reader, condition.inputs());
     PlaneBuffers buffers(device, condition.inputs(), std::size_t{size.width} * size.height, sizeof(float));
     for (const auto& [name, plane] : in) std::ranges::copy(plane, buffers.map<float>(name, CL_MAP_WRITE));
@@ -50,12 +46,15 @@ Planes show_condition(const Device& device, const Scene& scene, const GBufferRea
     return {{"condition", std::move(grey)}};
 }
 
-Shown show(const Device& device, const Scene& scene, const GBufferReader& reader, PanelPicture picture) {
+Shown show(const Device& device, const Scene& scene, const GBufferReader& reader, const FrameCamera& camera,
+           PanelPicture picture) {
     if (picture == PanelPicture::before)
         return {read_planes(reader, {"beauty.r", "beauty.g", "beauty.b"}), {"beauty.r", "beauty.g", "beauty.b"}};
     if (picture == PanelPicture::condition)
-        return {show_condition(device, scene, reader), {"condition", "condition", "condition"}, PngEncoding::linear};
-    Pass pass = evaluate(device, scene, describe_frame(scene));
+        return {show_condition(device, scene, reader, camera),
+                {"condition", "condition", "condition"},
+                PngEncoding::linear};
+    Pass pass = evaluate(device, scene, frame_of(scene, reader, camera));
     const Planes in = read_planes(reader, pass.inputs());
     Planes out;
     HostOutputs spans;
@@ -92,11 +91,11 @@ MontagePart cut(const Shown& shown, Size frame, const std::array<double, 4>& cro
 void draw_figure(const Device& device, const Figure& figure, const std::filesystem::path& file) {
     guarded("draw a figure", [&] {
         GBufferReader reader(figure.scene.gbuffer.file, figure.scene.gbuffer);
-        camera_of_frame(figure.scene, reader, 0);
+        const FrameCamera camera = camera_of_frame(figure.scene, reader, 0);
         const auto exposure = static_cast<float>(std::exp2(figure.scene.lighting.exposure));
         std::vector<MontagePart> parts;
         for (const Panel& panel : figure.panels) {
-            const Shown shown = show(device, panel_scene(figure, panel), reader, panel.picture);
+            const Shown shown = show(device, panel_scene(figure, panel), reader, camera, panel.picture);
             parts.push_back(cut(shown, reader.size(), figure.crop, exposure));
             parts.back().caption = panel.caption;
         }

@@ -7,8 +7,8 @@ namespace [[gnu::visibility("default")]] wrinkle {
 
 /// What files that somebody else made may do to this process. SECURITY.md says what is promised with and without them.
 struct Limits {
-    /// Bytes that a file, or what is planned from it, may take; 0: what WRINKLE_MEMORY (in GB), the process's own
-    /// limit, its cgroup's and the machine allow, the least of them.
+    /// Bytes that the process may take: what it would need more for is refused before; 0: what WRINKLE_MEMORY (in GB),
+    /// the process's own limit, its cgroup's and the machine allow, the least of them.
     std::uint64_t memory = 0;
     /// Files outside of this folder are not read, whatever links lead to them, and a layer of kind "kernel", which is
     /// native code, is refused. Empty: files may be anywhere.

@@ -125,6 +125,20 @@ TEST(Unlucky, MemoryIsLimitedByName) {
     place.write_scene(tilt);
     EXPECT_EQ(place.run("run scene.toml --quiet --memory 2").code, 0);
     expect_failed(run(place, "info scene.toml", "WRINKLE_MEMORY=lots"), {"WRINKLE_MEMORY is \"lots\""});
+    // No file is too large by itself: what the program has taken counts, and what becomes of a picture.
+    write_image(place / "flat.png", {{make_spec(3000, 3000, {"Y"}, OIIO::TypeUInt8), [](int, int, int) { return 0; }}});
+    place.write_scene("[[layer]]\nkind = \"height_map\"\ntexture = \"flat.png\"\nscale = 1\n");
+    expect_refused(
+        place, "run scene.toml --memory 0.25",
+        {"flat.png: its mips from 3000 x 3000 texels on would take", "in use; the limit of --memory is 250 MB"});
+    expect_failed(run(place, "run scene.toml", "WRINKLE_MEMORY=0.25"), {"flat.png", "the limit of WRINKLE_MEMORY is"});
+    // Files of limits where the kernel shows them, in both versions, for a process that may mount some.
+    const std::string mount = "unshare -m sh -c 'mount -t tmpfs none /sys/fs/cgroup && mkdir /sys/fs/cgroup/memory";
+    if (std::system((mount + "' 2> /dev/null").c_str()) != 0) return;
+    write_text(place / "limited.sh",
+               "cd /sys/fs/cgroup && echo 250000000 | tee memory.max > memory/memory.limit_in_bytes");
+    expect_failed(place.run("run scene.toml", mount + " && sh limited.sh && exec \"$0\" \"$@\"'"),
+                  {"flat.png", "the limit of the cgroup is 250 MB"});
 }
 
 TEST(Unlucky, NothingAroundItAbortsIt) {
