@@ -101,9 +101,9 @@ Scene without_lighting(Scene scene, const Frame& frame) {
     scene.lighting.lights.clear();
     scene.filter.taps = 1;
     for (Layer& layer : scene.layers)
-        if (layer.mask.cryptomatte)
-            if (const auto hash = frame.cryptomatte.find(*layer.mask.cryptomatte); hash != frame.cryptomatte.end())
-                layer.mask.cryptomatte = fmt::format("#{:08x}", hash->second);
+        for (std::string& name : layer.mask.cryptomatte)
+            if (const auto hash = frame.cryptomatte.find(name); hash != frame.cryptomatte.end())
+                name = fmt::format("#{:08x}", hash->second);
     return scene;
 }
 

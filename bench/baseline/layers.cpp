@@ -56,10 +56,12 @@ PreparedLayer LayerBuilder::layer(const Layer& in) {
 
 PreparedMask LayerBuilder::mask(const Mask& in) {
     PreparedMask out;
-    out.any = in.object || in.cryptomatte || in.channel || in.texture || in.invert;
+    if (in.object.size() > 1 || in.cryptomatte.size() > 1)
+        throw Unsupported("the plain C++ has no masks of several objects");
+    out.any = !in.object.empty() || !in.cryptomatte.empty() || in.channel || in.texture || in.invert;
     out.invert = in.invert;
-    if (in.object) out.object = static_cast<float>(*in.object);
-    if (in.cryptomatte) out.cryptomatte = cryptomatte_id(*in.cryptomatte, cryptomatte_);
+    if (!in.object.empty()) out.object = static_cast<float>(in.object.front());
+    if (!in.cryptomatte.empty()) out.cryptomatte = cryptomatte_id(in.cryptomatte.front(), cryptomatte_);
     if (in.channel) {
         out.channel = static_cast<int>(channels.size());
         channels.push_back(*in.channel);

@@ -57,6 +57,7 @@ std::vector<int> parse_frames(const std::string& text) {
 std::vector<std::filesystem::path> frame_files(const GBufferSource& gbuffer,
                                                const std::optional<CameraSource>& camera) {
     std::vector<std::filesystem::path> files{gbuffer.file};
+    if (!gbuffer.beauty_file.empty()) files.push_back(gbuffer.beauty_file);
     if (camera && !camera->file.empty()) files.push_back(camera->file);
     return files;
 }

@@ -1,6 +1,7 @@
 #include "io/cryptomatte.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -103,6 +104,14 @@ std::string find_key(const Metadata& header, const std::string& layer) {
 std::uint32_t cryptomatte_hash(std::string_view name) {
     const std::uint32_t hash = murmur3_32(name), exponent = hash >> 23 & 255;
     return exponent == 0 || exponent == 255 ? hash ^ 1u << 23 : hash;
+}
+
+bool io::is_name_pattern(const std::string& name) {
+    return !name.starts_with('#') && name.find_first_of("*?") != std::string::npos;
+}
+
+bool io::matches_name(const std::string& pattern, const std::string& name) {
+    return !name.starts_with('#') && ::fnmatch(pattern.c_str(), name.c_str(), FNM_NOESCAPE) == 0;
 }
 
 CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::string& layer,

@@ -15,6 +15,15 @@ namespace wrinkle {
 /// where the float would be zero, denormal, Inf or NaN.
 std::uint32_t cryptomatte_hash(std::string_view name);
 
+namespace io {
+
+/// Whether a name stands for all that it matches: * for any text, ? for one character.
+bool is_name_pattern(const std::string& name);
+/// Whether an object is called so. Hashes ("#...") are no names.
+bool matches_name(const std::string& pattern, const std::string& name);
+
+}  // namespace io
+
 /// Names and ids of one cryptomatte, as its header lists them. Empty when the header has no manifest.
 class CryptomatteManifest {
 public:

@@ -10,7 +10,9 @@
 #include "base/names.h"
 #include "base/only_errors.h"
 #include "io/band_reader.h"
+#include "io/beauty_file.h"
 #include "io/channel_names.h"
+#include "io/frame_path.h"
 #include "io/image_open.h"
 #include "io/image_parts.h"
 #include "io/packed_normals.h"
@@ -53,8 +55,13 @@ struct GBufferReader::Impl {
     std::optional<io::ObjectStorage> objects;
     CryptomatteManifest cryptomatte;
     std::unique_ptr<io::BandReader> reader;
+    std::unique_ptr<GBufferReader> beauty;  // another file, whose picture it is
+
+    bool is_elsewhere(std::string_view plane) const { return beauty && plane.starts_with("beauty."); }
 
     const io::ChannelPlace* place(std::string_view plane) const {
+        if (is_elsewhere(plane)) return beauty->impl_->place(plane);
+        if (plane == "beauty.a") return alpha_of_beauty();
         auto channel = plane;
         if (plane.starts_with(file_channel)) {
             channel.remove_prefix(file_channel.size());
@@ -67,6 +74,17 @@ struct GBufferReader::Impl {
         }
         const auto found = places.find(channel);
         return found == places.end() ? nullptr : found->second;
+    }
+
+    /// The picture's coverage: the alpha beside its colours.
+    const io::ChannelPlace* alpha_of_beauty() const {
+        const auto red = roles.channel_of.find("beauty.r");
+        if (red == roles.channel_of.end()) return nullptr;
+        const std::string layer = lower(red->second.substr(0, red->second.rfind('.') + 1));  // "" of a plain "R"
+        for (const auto& [channel, found] : places)
+            for (const char* name : {"a", "alpha"})
+                if (lower(channel) == layer + name && !found->whole_numbers) return found;
+        return nullptr;
     }
 
     [[noreturn]] void fail_missing(std::string_view plane) const {
@@ -98,6 +116,7 @@ struct GBufferReader::Impl {
     }
 
     void open(const GBufferSource& source);
+    void take_beauty(const GBufferSource& source);
     bool sample_packed_normals(NormalKind kind) const;
     io::ObjectStorage sample_objects() const;
     void finish_normals(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
@@ -150,12 +169,35 @@ void GBufferReader::Impl::open(const GBufferSource& source) {
     reader = std::make_unique<io::BandReader>(std::move(opened), image.size, image.parts);
     if (roles.cryptomatte_ranks > 0) cryptomatte = CryptomatteManifest(image.metadata, roles.cryptomatte_layer, path);
     packed_normals = sample_packed_normals(source.normals);
+    if (!source.beauty_file.empty()) take_beauty(source);
+}
+
+void GBufferReader::Impl::take_beauty(const GBufferSource& source) {
+    GBufferSource other{.file = source.beauty_file, .roles = {}, .view = source.view, .overscan = source.overscan};
+    if (!source.beauty_layer.empty()) other.roles["beauty"] = source.beauty_layer;
+    beauty = std::make_unique<GBufferReader>(source.beauty_file, other);
+    if (source.beauty_layer.empty()) io::require_one_beauty(beauty->channels(), source.beauty_file.string());
+    const FrameWindow& theirs = beauty->window();
+    if (beauty->size() != image.size || theirs.x != image.window.x || theirs.y != image.window.y)
+        throw Error(fmt::format("{}: the beauty has {}x{} pixels; {} has {}x{}", source.beauty_file.string(),
+                                beauty->size().width, beauty->size().height, path.string(), image.size.width,
+                                image.size.height));
+    for (const char* plane : {"beauty.r", "beauty.g", "beauty.b"}) {
+        if (!beauty->has_plane(plane)) beauty->impl_->fail_missing(plane);
+        roles.channel_of[plane] = beauty->roles().channel_of.find(plane)->second;
+    }
 }
 
 GBufferReader::GBufferReader(std::filesystem::path file, const GBufferSource& source)
     : impl_(std::make_unique<Impl>()) {
     impl_->path = std::move(file);
     only_errors(impl_->path.c_str(), [&] { impl_->open(source); });
+}
+
+GBufferReader open_gbuffer(const GBufferSource& source, int frame) {
+    GBufferSource of_frame = source;
+    if (!source.beauty_file.empty()) of_frame.beauty_file = frame_path(source.beauty_file, frame);
+    return GBufferReader(frame_path(source.file, frame), of_frame);
 }
 
 GBufferReader::~GBufferReader() = default;
@@ -188,11 +230,10 @@ std::uint32_t GBufferReader::block_rows() const {
     return static_cast<std::uint32_t>(std::ranges::max_element(parts, {}, &io::Part::block_rows)->block_rows);
 }
 std::uint32_t GBufferReader::blocks_at_a_glance(std::uint32_t most) const {
-    constexpr double bytes = 64e6;  // a tenth of a second
-    constexpr std::uint32_t fewest = 3;
+    constexpr double bytes = 64e6, fewest = 3;  // a tenth of a second
     const auto& parts = impl_->image.parts;
     const double largest = std::ranges::max_element(parts, {}, &io::Part::block_bytes)->block_bytes;
-    return std::min(std::max(static_cast<std::uint32_t>(std::min(bytes / std::max(largest, 1.0), 1e9)), fewest), most);
+    return std::min(static_cast<std::uint32_t>(std::clamp(bytes / std::max(largest, 1.0), fewest, 1e9)), most);
 }
 io::ObjectStorage GBufferReader::object_storage() const {
     if (!impl_->objects) impl_->objects = impl_->sample_objects();
@@ -223,11 +264,13 @@ void GBufferReader::read_rows(std::uint32_t row_begin, std::uint32_t row_end, st
                                 path().string(), row_begin, row_end, planes.size(), out.size(), size().height));
     }
     require(planes);
-    std::vector<io::WantedChannel> wanted;
+    std::vector<io::WantedChannel> wanted, elsewhere;
     for (std::size_t i = 0; i < planes.size(); ++i)
-        wanted.push_back(
-            {*impl_->place(planes[i]), out[i], planes[i] == "object" || planes[i].starts_with(bits_of_channel)});
+        (impl_->is_elsewhere(planes[i]) ? elsewhere : wanted)
+            .push_back(
+                {*impl_->place(planes[i]), out[i], planes[i] == "object" || planes[i].starts_with(bits_of_channel)});
     impl_->reader->read(row_begin, row_end, wanted);
+    if (!elsewhere.empty()) impl_->beauty->impl_->reader->read(row_begin, row_end, elsewhere);
     const std::size_t count = std::size_t{row_end - row_begin} * size().width;
     impl_->finish_normals(planes, out, count);
     for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -59,7 +59,8 @@ public:
     void turn_normals(const Mat4& view);
     bool normals_are_in_world_space() const;
 
-    /// "normal.x", "channel:NAME"; "bits:NAME" is a channel of integers, whose floats hold the integers' bits
+    /// "normal.x", "channel:NAME"; "beauty.a", the alpha beside the picture's colours; "bits:NAME" is a channel of
+    /// integers, whose floats hold the integers' bits
     bool has_plane(std::string_view plane) const;
     bool has_role(std::string_view role) const { return roles().has_role(role); }
     std::vector<std::string> planes() const;  ///< the planes of all roles that were found
@@ -79,5 +80,8 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Opens one frame of a sequence: fills its number into the names of the source.
+GBufferReader open_gbuffer(const GBufferSource& source, int frame);
 
 }  // namespace wrinkle

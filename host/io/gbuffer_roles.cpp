@@ -169,6 +169,11 @@ const std::vector<Role>& gbuffer_roles() {
         {"albedo", {"albedo.r", "albedo.g", "albedo.b"}},
         {"roughness", {"roughness"}},
         {"metallic", {"metallic"}},
+        {"emission", {"emission.r", "emission.g", "emission.b"}},
+        {"transmission", {"transmission.r", "transmission.g", "transmission.b"}},
+        {"transmission_direct", {"transmission_direct.r", "transmission_direct.g", "transmission_direct.b"}},
+        {"transmission_indirect", {"transmission_indirect.r", "transmission_indirect.g", "transmission_indirect.b"}},
+        {"transmission_color", {"transmission_color.r", "transmission_color.g", "transmission_color.b"}},
         {"beauty", {"beauty.r", "beauty.g", "beauty.b"}},
         {"cryptomatte", {"crypto.id0", "crypto.coverage0"}},  // and further ranks, as many as the file has
     };

@@ -99,7 +99,7 @@ std::vector<RoleStats> measure(const GBufferReader& reader, std::uint64_t& measu
 GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraSource>& camera, int frame) {
     GBufferInfo info;
     info.file = frame_path(source.file, frame);
-    const GBufferReader reader(info.file, source);
+    const GBufferReader reader = open_gbuffer(source, frame);
     info.roles = reader.roles();
     info.size = reader.size();
     info.parts = reader.parts();

@@ -17,7 +17,8 @@ UvDigits uv_digits(const GBufferReader& reader) {
     const std::array<float*, 2> out{u.data(), v.data()};
     // 1 - v of a half float need not be one, so v is not asked where it is turned.
     const bool with_v = !reader.roles().v_down;
-    std::size_t told = 0, halves = 0, bytes = 0;
+    // A ramp that a program made may hit halves by its steps alone, but then not with their last digit.
+    std::size_t told = 0, halves = 0, last_digits = 0, bytes = 0;
     for (const std::uint32_t tenth : {5u, 3u, 7u}) {
         const std::uint32_t row = tenth * height / 10;
         reader.read_rows(row, row + 1, planes, out);
@@ -26,6 +27,7 @@ UvDigits uv_digits(const GBufferReader& reader) {
             ++told;
             const float scaled = 255 * value;
             halves += static_cast<float>(Imath::half(value)) == value;
+            last_digits += Imath::half(value).bits() & 1;
             bytes += std::abs(scaled - std::round(scaled)) < 1e-4F;
         };
         std::ranges::for_each(u, count);
@@ -34,7 +36,8 @@ UvDigits uv_digits(const GBufferReader& reader) {
     constexpr std::size_t fewest = 32;
     if (reader.channel_type(reader.roles().channel_of.find("uv.u")->second) == ChannelType::half) return UvDigits::half;
     if (told < fewest) return UvDigits::enough;
-    return bytes == told ? UvDigits::byte : halves == told ? UvDigits::half : UvDigits::enough;
+    if (bytes == told) return UvDigits::byte;
+    return halves == told && 8 * last_digits >= told ? UvDigits::half : UvDigits::enough;
 }
 
 }  // namespace wrinkle::io

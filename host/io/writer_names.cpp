@@ -29,6 +29,11 @@ std::span<const RoleNames> role_names() {
         {"albedo", {"albedo", "diffcol", "basecolor", "diffusecolor", "diffusefilter", "denoisingalbedo"}},
         {"roughness", {"roughness", "specularroughness"}},
         {"metallic", {"metallic", "metalness", "metallness", "metal"}},
+        {"emission", {"emission", "emit", "selfillumination", "vrayselfillumination"}},
+        {"transmission", {"transmission", "refraction", "vrayrefraction"}},
+        {"transmission_direct", {"transmissiondirect", "transdir"}},
+        {"transmission_indirect", {"transmissionindirect", "transind"}},
+        {"transmission_color", {"transmissioncolor", "transcol"}},
         {"beauty", {"beauty", "combined", "rgba", "rgb", "rgbcolor", "c", "ci", "image", "finalimage", ""}},
     };
     return names;
@@ -57,7 +62,8 @@ std::vector<std::vector<std::string_view>> component_sets(std::string_view role,
     if (planes == 1) return {{"z"}, {"t"}, {"v"}, {"x"}, {"r"}, {"i"}, {"y"}, {"red"}};
     if (planes == 2) return {{"u", "v"}, {"s", "t"}, {"x", "y"}, {"r", "g"}, {"red", "green"}};
     const std::vector<std::string_view> colour{"r", "g", "b"}, words{"red", "green", "blue"}, space{"x", "y", "z"};
-    if (role == "albedo" || role == "beauty") return {colour, words, space};
+    if (role == "albedo" || role == "beauty" || role == "emission" || role.starts_with("transmission"))
+        return {colour, words, space};
     return {space, colour, words};
 }
 

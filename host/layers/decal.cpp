@@ -71,7 +71,9 @@ Projector row(const Layer& layer) {
 /// Whether two decals can share a loop: they have the same mask and are sampled alike. Masks of objects never count as
 /// the same, because which object one is for is not compiled in.
 bool joins(const Layer& a, const Layer& b) {
-    const auto of_an_object = [](const Mask& mask) { return mask.object || mask.cryptomatte || mask.texture; };
+    const auto of_an_object = [](const Mask& mask) {
+        return !mask.object.empty() || !mask.cryptomatte.empty() || mask.texture;
+    };
     const bool same_mask = !of_an_object(a.mask) && !of_an_object(b.mask) && a.mask.channel == b.mask.channel &&
                            a.mask.invert == b.mask.invert;
     const TextureUse &ta = decal_of(a).texture, &tb = decal_of(b).texture;

@@ -2,6 +2,7 @@
 
 #include "plan/geometry_text.h"
 #include "plan/light_pictures.h"
+#include "plan/mask_text.h"
 
 namespace wrinkle {
 
@@ -55,6 +56,29 @@ std::string load_text(Section& section, const std::string& name, const std::arra
         name, identifier(planes[0]), identifier(planes[1]), identifier(planes[2]));
 }
 
+/// Text that declares `through`, what a pixel shows through its surface; empty where no pass tells.
+std::string through_text(Emitter& emitter, Section& section) {
+    const auto load = [&](const char* name) {
+        const std::string plane = name;
+        return load_text(section, plane, {plane + ".r", plane + ".g", plane + ".b"});
+    };
+    if (emitter.has("transmission.r")) return load("transmission") + "        wr_vec3 through = transmission;\n";
+    for (const char* part : {"transmission_direct.r", "transmission_indirect.r", "transmission_color.r"})
+        if (!emitter.has(part)) return {};
+    return load("transmission_direct") + load("transmission_indirect") + load("transmission_color") +
+           "        wr_vec3 through = wr_multiply3(wr_add(transmission_direct, transmission_indirect), "
+           "transmission_color);\n";
+}
+
+/// Text that declares `left`: 1 where the picture is to stay as it is.
+std::string left_text(Emitter& emitter, Section& section) {
+    const MaskPlace place{"leave in [lighting]", "leave in [lighting]",
+                          [](const Scene& scene) -> const Mask& { return scene.lighting.leave.value(); }};
+    const bool invert = place.mask(emitter.scene).invert;
+    return fmt::format("        wr_real left;\n        {{\n{}        left = {};\n        }}\n",
+                       mask_of_planes(emitter, place, section), invert ? "1 - m" : "m");
+}
+
 /// Text that sets `lit`, which holds what lights without pictures give, to the picture with the bumps.
 std::string relight_text(Emitter& emitter, Section& section) {
     const std::vector<std::string> pictures = pictures_of(emitter.scene.lighting);
@@ -68,6 +92,10 @@ std::string relight_text(Emitter& emitter, Section& section) {
                     "        rest = wr_sub(rest, own_{0});\n"
                     "        change = wr_add(change, wr_relight_change(own_{0}, {1}, old_{1}, lighting->max_ratio));\n",
                     k, lit_name(k));
+    if (emitter.has("emission.r"))
+        text += load_text(section, "emission", {"emission.r", "emission.g", "emission.b"}) +
+                "        emission = wr_max(emission, wr_zero3());\n"
+                "        rest = wr_sub(rest, emission);\n";
     text +=
         "        rest = wr_max(rest, wr_zero3());\n"
         "        wr_vec3 sky = wr_v3(albedo.x * old_lit_sky.x, albedo.y * old_lit_sky.y, albedo.z * old_lit_sky.z);\n";
@@ -92,6 +120,11 @@ std::string relight_text(Emitter& emitter, Section& section) {
             "        change = wr_select(fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO, change, "
             "wr_zero3());\n";
     }
+    if (const std::string through = through_text(emitter, section); !through.empty())
+        text += through + fmt::format("        change = wr_beside_part(change, through, {});\n",
+                                      emitter.has("emission.r") ? "wr_sub(beauty, emission)" : "beauty");
+    if (emitter.scene.lighting.leave)
+        text += left_text(emitter, section) + "        change = wr_scale(change, 1 - left);\n";
     return text +
            "        lit = wr_select(valid, wr_max(wr_add(beauty, change), wr_min(beauty, wr_zero3())), beauty);\n";
 }
@@ -123,6 +156,11 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     if (!ratio) {
         if (!end.at_taps) text += fmt::format("        lit = {};\n", terms.front().of("p", "n", now));
         text += "        lit = wr_select(valid, lit, wr_zero3());\n";
+        if (lighting.leave) {
+            emitter.need("leave in [lighting]", {"beauty.r", "beauty.g", "beauty.b"});
+            text += left_text(emitter, section) + load_text(section, "beauty", {"beauty.r", "beauty.g", "beauty.b"}) +
+                    "        lit = wr_add(wr_scale(lit, 1 - left), wr_scale(beauty, left));\n";
+        }
         return section;
     }
     emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/object_ids.h"
-#include "plan/section.h"
+#include "plan/mask_text.h"
 
 namespace wrinkle {
 
@@ -60,56 +59,10 @@ std::string emit_texcoord(Emitter& emitter, const Layer& layer, const UvOf& uv_o
 
 namespace {
 
-/// Kernel text that declares `m`, the product of the factors of a mask that come from planes.
-std::string mask_of_planes(Emitter& emitter, const Layer& layer, Section& section) {
-    const std::string who = layer_label(layer) + ": its mask";
-    const Mask& mask = layer.mask;
-    std::string text = "        wr_real m = 1;\n";
-    const auto factor = [&](const std::string& value) {
-        text += fmt::format("        m *= {};\n", value);
-        section.operations += 2;
-    };
-    if (mask.object) {
-        emitter.need(who, {"object"});
-        section.inputs.insert("object");
-        factor(fmt::format("wr_mask_object(wr_load(in_object, at.in), {})",
-                           emitter.number(layer, "mask object",
-                                          [](const Layer& l) { return io::object_label(l.mask.object.value()); })));
-    }
-    if (mask.cryptomatte) {
-        emitter.need(who, {"crypto.id0", "crypto.coverage0"});
-        // A float cannot hold 32 bits, so the hash is passed as two halves.
-        const std::size_t hash =
-            emitter.numbers(layer, "mask cryptomatte", [who](const Layer& l, const NumberSource& s) {
-                const std::uint32_t id = cryptomatte_hash(s.cryptomatte, l.mask.cryptomatte.value(), who);
-                return std::vector<double>{static_cast<double>(id >> 16), static_cast<double>(id & 0xffff)};
-            });
-        text += fmt::format(
-            "        wr_real covered = 0;\n        uint object_hash = (uint)numbers[{}] << 16 | (uint)numbers[{}];\n",
-            hash, hash + 1);
-        for (int rank = 0; emitter.has(fmt::format("crypto.id{}", rank)); ++rank) {
-            const std::string id = fmt::format("crypto.id{}", rank), coverage = fmt::format("crypto.coverage{}", rank);
-            section.inputs.insert({id, coverage});
-            text += fmt::format(
-                "        covered += wr_mask_cryptomatte(wr_load_floats({}, at.in), wr_load({}, at.in), object_hash);\n",
-                identifier(id), identifier(coverage));
-            section.operations += 3;
-        }
-        factor("wr_mask_channel(covered)");
-    }
-    if (mask.channel) {
-        const std::string plane = "channel:" + *mask.channel;
-        emitter.need(who, {plane});
-        section.inputs.insert(plane);
-        factor(fmt::format("wr_mask_channel(wr_load({}, at.in))", identifier(plane)));
-    }
-    return text;
-}
-
 /// Whether a layer may be anywhere, because no plane tells where its mask is 0.
 bool anywhere(const Layer* layer) {
     const Mask& mask = layer->mask;
-    return !(mask.object || mask.cryptomatte || mask.channel) || (mask.texture && mask.invert);
+    return (mask.object.empty() && mask.cryptomatte.empty() && !mask.channel) || (mask.texture && mask.invert);
 }
 
 }  // namespace
@@ -118,7 +71,7 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
     if (std::ranges::any_of(layers, anywhere)) return {};
     std::string text = "        wr_mask wanted = 0;\n";
     for (const Layer* layer : layers) {
-        text += "        {\n" + mask_of_planes(emitter, *layer, section) +
+        text += "        {\n" + mask_of_planes(emitter, mask_of_layer(emitter, *layer), section) +
                 (layer->mask.invert ? "        m = 1 - m;\n" : "") + "        wanted = wanted | (m != 0);\n        }\n";
     }
     return text;
@@ -127,7 +80,7 @@ std::string emit_wanted(Emitter& emitter, const std::vector<const Layer*>& layer
 MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section) {
     const std::string who = layer_label(layer) + ": its mask";
     const Mask& mask = layer.mask;
-    const std::string planes = mask_of_planes(emitter, layer, section);
+    const std::string planes = mask_of_planes(emitter, mask_of_layer(emitter, layer), section);
     std::string text;
     if (mask.texture) {
         const std::size_t number = emitter.texture(

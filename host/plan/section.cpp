@@ -9,6 +9,7 @@
 
 #include "base/names.h"
 #include "plan/light_pictures.h"
+#include "plan/planned_numbers.h"
 #include "plan/precision.h"
 #include "wrinkle/error.h"
 
@@ -88,16 +89,10 @@ std::vector<double> numbers_of(const PlannedNumbers& planned, const NumberSource
 
 std::size_t Emitter::numbers(const Layer& layer, const std::string& what,
                              std::function<std::vector<double>(const Layer&, const NumberSource&)> of) {
-    std::size_t first = 0;
-    for (const PlannedNumbers& known : plan.numbers) first += known.count;
-    PlannedNumbers planned{fmt::format("{} of {}", what, layer_label(layer)), 0,
-                           [index = index_of(layer), of = std::move(of)](const NumberSource& source) {
-                               return of(source.scene.layers.at(index), source);
-                           }};
-    planned.count = planned.of({scene, available.cryptomatte}).size();
-    numbers_of(planned, {scene, available.cryptomatte});
-    plan.numbers.push_back(std::move(planned));
-    return first;
+    return add_numbers(*this, fmt::format("{} of {}", what, layer_label(layer)),
+                       [index = index_of(layer), of = std::move(of)](const NumberSource& source) {
+                           return of(source.scene.layers.at(index), source);
+                       });
 }
 
 std::string Emitter::number(const Layer& layer, const std::string& what, std::function<double(const Layer&)> of) {

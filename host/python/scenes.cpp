@@ -6,6 +6,10 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "io/cryptomatte.h"
 #include "layers/kinds.h"
 #include "python/bindings.h"
 #include "python/progress.h"
@@ -31,8 +35,12 @@ void bind_scenes(nb::module_& module) {
             "objects",
             [](const Scene& scene) {
                 std::vector<std::string> names;
+                const auto add = [&](const Mask& mask) {  // what patterns match, a frame knows
+                    std::ranges::remove_copy_if(mask.cryptomatte, std::back_inserter(names), io::is_name_pattern);
+                };
+                if (scene.lighting.leave) add(*scene.lighting.leave);
                 for (const Layer& layer : scene.layers) {
-                    if (layer.mask.cryptomatte) names.push_back(*layer.mask.cryptomatte);
+                    add(layer.mask);
                     const LayerKind& kind = kind_of(layer_kinds(), layer);
                     if (!kind.objects) continue;
                     for (const NamedObject& object : kind.objects(layer))

@@ -6,6 +6,7 @@
 
 #include "base/names.h"
 #include "base/same_file.h"
+#include "io/frame_path.h"
 #include "layers/kinds.h"
 #include "scene/check_scene.h"
 #include "wrinkle/error.h"
@@ -29,17 +30,6 @@ fs::path file_name(const char* stem, const char* extension, std::optional<int> f
     return frame ? fmt::format("{}.{:04d}.{}", stem, *frame, extension) : fmt::format("{}.{}", stem, extension);
 }
 
-/// The channel that holds the picture's coverage: the alpha beside its colours.
-std::string alpha_channel(const GBufferReader& reader) {
-    const auto red = reader.roles().channel_of.find("beauty.r");
-    if (red == reader.roles().channel_of.end()) return {};
-    const std::string layer = red->second.substr(0, red->second.rfind('.') + 1);  // "" of a plain "R"
-    for (const std::string& channel : reader.channels())
-        for (const char* name : {"a", "alpha"})
-            if (lower(channel) == lower(layer) + name) return channel;
-    return {};
-}
-
 Metadata provenance(const Scene& scene, const GBufferReader& reader, bool passthrough) {
     Metadata metadata = passthrough ? reader.metadata() : Metadata();
     metadata.set("Software", "wrinkle");
@@ -57,6 +47,7 @@ void check_outputs(const Scene& scene, const GBufferReader& reader, const fs::pa
                    std::optional<int> frame) {
     std::vector<fs::path> inputs = scene::files_of(layer_kinds(), scene);
     inputs.push_back(reader.path());
+    if (!scene.gbuffer.beauty_file.empty()) inputs.push_back(frame_path(scene.gbuffer.beauty_file, frame.value_or(0)));
     const auto check = [&](const char* stem, const char* extension) {
         refuse_to_replace(directory / file_name(stem, extension, frame), inputs);
     };
@@ -123,9 +114,8 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     if (scene.lighting.relight == Relight::off) return;
     const std::vector<std::string> lit{"out:lit.r", "out:lit.g", "out:lit.b"}, colors{"R", "G", "B"};
     std::vector<std::string> with_alpha = lit, colors_alpha = colors;
-    if (const std::string alpha = alpha_channel(reader); !alpha.empty() && scene.lighting.relight == Relight::ratio &&
-                                                         reader.channel_type(alpha) != ChannelType::whole) {
-        passed_.push_back("channel:" + alpha);  // colours are premultiplied, so factors leave it as it is
+    if (scene.lighting.relight == Relight::ratio && reader.has_plane("beauty.a")) {
+        passed_.emplace_back("beauty.a");  // colours are premultiplied, so factors leave it as it is
         with_alpha.push_back(passed_.back()), colors_alpha.emplace_back("A");
     }
     add(file_name("lit", "exr", frame), with_alpha, colors_alpha, PngEncoding::linear);

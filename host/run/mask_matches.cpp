@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 
+#include "io/cryptomatte.h"
 #include "layers/kinds.h"
 #include "plan/section.h"
 
@@ -29,18 +30,25 @@ std::string listed(const std::vector<std::string>& names, bool more) {
 
 }  // namespace
 
+void MaskMatches::add(const Mask& mask, std::size_t layer) {
+    for (const double object : mask.object) wanted_.push_back({.layer = layer, .index = object});
+    for (const std::string& name : mask.cryptomatte) wanted_.push_back({.layer = layer, .name = name});
+}
+
 MaskMatches::MaskMatches(const Scene& scene) {
     for (const Layer& layer : scene.layers) {
         const std::size_t number = layers_.size();
         layers_.push_back(layer_label(layer));
-        if (layer.mask.object && !layer.mask.invert) wanted_.push_back({.layer = number, .index = *layer.mask.object});
-        if (layer.mask.cryptomatte && !layer.mask.invert)
-            wanted_.push_back({.layer = number, .name = *layer.mask.cryptomatte});
+        if (!layer.mask.invert) add(layer.mask, number);
         const LayerKind& kind = kind_of(layer_kinds(), layer);
         if (!kind.objects) continue;
         for (const NamedObject& object : kind.objects(layer))
             wanted_.push_back(
                 {.layer = number, .name = object.cryptomatte, .index = object.index, .place = object.place});
+    }
+    if (scene.lighting.leave && !scene.lighting.leave->invert) {
+        layers_.emplace_back("leave in [lighting]");
+        add(*scene.lighting.leave, layers_.size() - 1);
     }
 }
 
@@ -55,6 +63,9 @@ void MaskMatches::begin(const Frame& frame, io::ObjectStorage objects) {
             objects_.unseen[label_of(io::object_label(wanted.index))].push_back(i);
         else if (const auto id = frame.cryptomatte.find(wanted.name); id != frame.cryptomatte.end())
             ids_.unseen[id->second].push_back(i);
+        else if (io::is_name_pattern(wanted.name))
+            for (const auto& [name, hash] : frame.cryptomatte)
+                if (io::matches_name(wanted.name, name)) ids_.unseen[hash].push_back(i);
     }
 }
 

@@ -41,6 +41,7 @@ private:
         bool more = false;                                                     ///< than those
     };
 
+    void add(const Mask& mask, std::size_t layer);
     void look(Labels& labels, const float* values, const float* coverages, std::size_t pixels);
     double number_of(std::uint32_t label) const;
     std::string shown(const Labels& labels, bool names) const;

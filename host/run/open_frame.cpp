@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "io/frame_path.h"
 #include "layers/kinds.h"
 #include "plan/section.h"
 #include "wrinkle/error.h"
@@ -18,17 +17,27 @@ std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, cons
     if (!reader.has_role("cryptomatte")) return hashes;
     const auto add = [&](const std::string& name, const auto& who) {
         if (name.empty() || hashes.contains(name)) return;
+        if (io::is_name_pattern(name)) {
+            if (!reader.cryptomatte().names().empty()) return;
+            throw Error(
+                fmt::format("{}: the Cryptomatte of {} has no list of names, so nothing tells what \"{}\" "
+                            "matches; give names in full",
+                            who(), reader.path().string(), name));
+        }
         try {
             hashes.emplace(name, reader.cryptomatte().id(name));
         } catch (const Error& error) { throw Error(fmt::format("{}: {}", who(), error.what())); }
     };
     for (const Layer& layer : scene.layers) {
-        if (layer.mask.cryptomatte) add(*layer.mask.cryptomatte, [&] { return layer_label(layer); });
+        for (const std::string& name : layer.mask.cryptomatte) add(name, [&] { return layer_label(layer); });
         const LayerKind& kind = kind_of(layer_kinds(), layer);
         if (!kind.objects) continue;
         for (const NamedObject& object : kind.objects(layer))
             add(object.cryptomatte, [&] { return layer_label(layer) + ": " + object.place; });
     }
+    if (scene.lighting.leave)
+        for (const std::string& name : scene.lighting.leave->cryptomatte)
+            add(name, [] { return std::string("leave in [lighting]"); });
     return hashes;
 }
 
@@ -48,9 +57,7 @@ Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamer
     return frame;
 }
 
-GBufferReader open_frame(const Scene& scene, int frame) {
-    return GBufferReader(frame_path(scene.gbuffer.file, frame), scene.gbuffer);
-}
+GBufferReader open_frame(const Scene& scene, int frame) { return open_gbuffer(scene.gbuffer, frame); }
 
 FrameCamera camera_of_frame(const Scene& scene, GBufferReader& reader, int frame, CameraCheck check) {
     FrameCamera camera = read_frame_camera(scene.camera, reader, frame);

@@ -26,7 +26,8 @@ void read_encoding(Table& table, TextureUse& texture) {
 
 void read_place(Table& table, Layer& layer) {
     table.read("footprint", layer.footprint);
-    const bool masked = layer.mask.object || layer.mask.cryptomatte || layer.mask.channel || layer.mask.texture;
+    const bool masked =
+        !layer.mask.object.empty() || !layer.mask.cryptomatte.empty() || layer.mask.channel || layer.mask.texture;
     if (auto mask = table.table("mask", "mask of " + table.where(), masked || layer.mask.invert))
         read_mask(*mask, layer.mask);
 }

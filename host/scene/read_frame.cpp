@@ -135,6 +135,12 @@ void read_gbuffer(Table& table, GBufferSource& out) {
         if (table.document().view_in_names) out.view.clear();  // a file for each view holds no other
         table.read("layer", out.layer);
         table.read("overscan", out.overscan);
+        if (auto beauty = table.table("beauty", "beauty of " + table.where())) {
+            beauty->require("file");
+            beauty->read_file("file", out.beauty_file, Table::FramePattern::allowed);
+            beauty->read("layer", out.beauty_layer);
+            beauty->finish();
+        }
         if (auto roles = table.table("roles", "roles of " + table.where())) read_roles(*roles, out.roles);
     }
     table.choose("geometry", out.geometry,

@@ -98,6 +98,11 @@ void read_lighting(Table& table, Lighting& out) {
     table.read("roughness", out.roughness, zero_to_one);
     table.read("f0", out.f0, zero_to_one);
     table.read("max_ratio", out.max_ratio, {.low = 1});
+    if (auto leave = table.table("leave", "leave of " + table.where(), out.leave.has_value())) {
+        Mask mask = out.leave.value_or(Mask{});
+        read_leave(*leave, mask);
+        out.leave = std::move(mask);
+    }
     table.read("exposure", out.exposure, {.low = -64, .high = 64});
     table.finish();
 }

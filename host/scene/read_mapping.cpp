@@ -18,6 +18,18 @@ bool is_hash(std::string_view text) {
            std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isxdigit(c); });
 }
 
+/// What a mask tells by planes of the frame.
+void read_planes_of_mask(Table& table, Mask& out) {
+    table.read_some("object", out.object);
+    if (table.read_some("cryptomatte", out.cryptomatte))
+        for (const std::string& name : out.cryptomatte)
+            if (name.front() == '#' && !is_hash(name) && !table.is_bad("cryptomatte"))
+                table.complain("cryptomatte",
+                               fmt::format("is {}; a hash is # and 8 hex digits, such as \"#1a2b3c4d\"", quote(name)));
+    table.read("channel", out.channel);
+    table.read("invert", out.invert);
+}
+
 }  // namespace
 
 void read_uv(Table& table, UvMapping& out) {
@@ -41,14 +53,16 @@ void read_uv(Table& table, UvMapping& out) {
     table.finish();
 }
 
+void read_leave(Table& table, Mask& out) {
+    read_planes_of_mask(table, out);
+    if (out.texture) table.complain_here(fmt::format("{} must not have a texture", table.where()));
+    if (out.object.empty() && out.cryptomatte.empty() && !out.channel)
+        table.complain_here(fmt::format("{} needs one of the keys object, cryptomatte, channel", table.where()));
+    table.finish();
+}
+
 void read_mask(Table& table, Mask& out) {
-    table.read("object", out.object);
-    if (table.read("cryptomatte", out.cryptomatte, Compiled::no) && out.cryptomatte->front() == '#' &&
-        !is_hash(*out.cryptomatte))
-        table.complain("cryptomatte", fmt::format("is {}; a hash is # and 8 hex digits, such as \"#1a2b3c4d\"",
-                                                  quote(*out.cryptomatte)));
-    table.read("channel", out.channel);
-    table.read("invert", out.invert);
+    read_planes_of_mask(table, out);
     if (table.visits()) table.compiled_in("texture", out.texture.has_value());
     if (out.texture) table.require("texture");
     MaskTexture texture = out.texture.value_or(MaskTexture{});
@@ -63,7 +77,7 @@ void read_mask(Table& table, Mask& out) {
     span_tiles(table, use, texture.uv);
     if (has_texture) out.texture = texture;
     const auto has = [&](const char* key, bool held) { return table.has(key) || (table.visits() && held); };
-    if (!has("object", out.object.has_value()) && !has("cryptomatte", out.cryptomatte.has_value()) &&
+    if (!has("object", !out.object.empty()) && !has("cryptomatte", !out.cryptomatte.empty()) &&
         !has("channel", out.channel.has_value()) && !has("texture", out.texture.has_value()))
         table.complain_here(
             fmt::format("{} needs one of the keys object, cryptomatte, channel, texture", table.where()));

@@ -39,5 +39,7 @@ void read_light(Table& table, Light& out);
 /// The tables inside layers.
 void read_uv(Table& table, UvMapping& out);
 void read_mask(Table& table, Mask& out);
+/// Where lighting leaves the picture alone: a mask without a texture.
+void read_leave(Table& table, Mask& out);
 
 }  // namespace wrinkle::scene

@@ -72,6 +72,9 @@ public:
     bool read(std::string_view key, double& out, const Range& range = any_number);
     bool read(std::string_view key, std::string& out, Compiled compiled = Compiled::yes);
     bool read(std::string_view key, std::vector<std::string>& out);
+    /// One value or an array of them, at least one. How many there are is compiled in, what they are is not.
+    bool read_some(std::string_view key, std::vector<double>& out);
+    bool read_some(std::string_view key, std::vector<std::string>& out);
     template <std::size_t N>
     bool read(std::string_view key, std::array<double, N>& out, const Range& range = any_number) {
         return read_numbers(key, out.data(), N, range);
@@ -193,6 +196,9 @@ private:
                        std::string_view element);
     bool read_numbers(std::string_view key, double* out, std::size_t count, const Range& range);
     bool read_rows(std::string_view key, double* out, std::size_t size);
+    /// The values of a key that holds one or an array of them; empty where it is missing or holds none.
+    std::vector<Value> some(std::string_view key, std::string_view wanted);
+    bool text(std::string_view key, const toml::node& node, std::string& out, std::string_view element);
     bool wrong_type(std::string_view key, std::string_view wanted, const toml::node& found);
 
     Document* document_;

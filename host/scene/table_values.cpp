@@ -147,13 +147,56 @@ bool Table::read_rows(std::string_view key, double* out, std::size_t size) {
 bool Table::read(std::string_view key, std::string& out, Compiled compiled) {
     const Value node = text_of(key, out);
     if (visits() && compiled == Compiled::yes) note(key, out);
-    if (!node) return false;
-    if (!node->is_string()) return wrong_type(key, "a text in \"\"", *node);
-    const std::string& text = node->as_string()->get();
-    if (text.empty()) return wrong_type(key, "a text that is not empty", *node);
+    return node && text(key, *node, out, "");
+}
+
+bool Table::text(std::string_view key, const toml::node& node, std::string& out, std::string_view element) {
+    if (!node.is_string()) return wrong_type(key, fmt::format("{}a text in \"\"", element), node);
+    const std::string& value = node.as_string()->get();
+    if (value.empty()) return wrong_type(key, fmt::format("{}a text that is not empty", element), node);
     // Texts end up in messages, file names and the comments of generated kernels.
-    if (has_control_character(text)) return wrong_type(key, "a text without control characters", *node);
-    out = text;
+    if (has_control_character(value))
+        return wrong_type(key, fmt::format("{}a text without control characters", element), node);
+    out = value;
+    return true;
+}
+
+std::vector<Table::Value> Table::some(std::string_view key, std::string_view wanted) {
+    const toml::node* node = find(key);
+    std::vector<Value> values;
+    if (!node) return values;
+    if (const toml::array* array = node->as_array()) {
+        for (const toml::node& element : *array) values.emplace_back(&element);
+        if (array->empty()) wrong_type(key, wanted, *node);
+    } else {
+        values.emplace_back(node);
+    }
+    return values;
+}
+
+bool Table::read_some(std::string_view key, std::vector<double>& out) {
+    compiled_in(key, static_cast<int>(out.size()));
+    if (visits()) return visit_numbers(key, out.data(), out.size(), any_number, "");
+    std::vector<double> values;
+    for (const Value& value : some(key, "a number, or an array of numbers"))
+        if (!number(key, *value, values.emplace_back(), any_number, "")) return false;
+    if (values.empty()) return false;
+    out = std::move(values);
+    return true;
+}
+
+bool Table::read_some(std::string_view key, std::vector<std::string>& out) {
+    compiled_in(key, static_cast<int>(out.size()));
+    if (visits()) {
+        for (std::string& held : out)
+            if (!text(key, toml::value<std::string>(held), held, "")) return false;
+        return !out.empty();
+    }
+    std::vector<std::string> values;
+    for (const Value& value : some(key, "a text in \"\", or an array of texts"))
+        if (!text(key, *value, values.emplace_back(), "")) return false;
+    if (values.empty()) return false;
+    out = std::move(values);
     return true;
 }
 

@@ -36,9 +36,12 @@ struct GBufferSource {
     DepthKind depth = DepthKind::automatic;   ///< automatic: by the writer
     NormalKind normals = NormalKind::automatic;
     VDirection v = VDirection::automatic;
-    std::string view{};     ///< of a stereo frame; empty: the first one, which is the file's default
-    std::string layer{};    ///< view layer; empty: the one with most roles
-    bool overscan = false;  ///< what the data window holds around the picture belongs to the frame
+    std::string view{};   ///< of a stereo frame; empty: the first one, which is the file's default
+    std::string layer{};  ///< view layer; empty: the one with most roles
+    /// The picture, where another file has it: of the same size; may hold the patterns of `file`.
+    std::filesystem::path beauty_file{};
+    std::string beauty_layer{};  ///< of that file; empty: the one that is called as pictures are
+    bool overscan = false;       ///< what the data window holds around the picture belongs to the frame
 };
 
 /// A lens as cameras state it. Lengths in millimetres.

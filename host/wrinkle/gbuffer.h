@@ -20,6 +20,9 @@
 ///   albedo      albedo.r .g .b                     diffuse reflectance, linear
 ///   roughness   roughness                          perceptual, GGX alpha = roughness^2
 ///   metallic    metallic                           1 where the surface is metal
+///   emission    emission.r .g .b                   what surfaces give off, linear
+///   transmission  transmission.r .g .b             what shows through surfaces: glass, water; or in three parts,
+///   transmission_direct, _indirect, _color         ... direct and indirect light, and the colour that both are times
 ///   beauty      beauty.r .g .b                     the finished picture, linear
 ///   cryptomatte crypto.id0 crypto.coverage0 ...    ranked pairs; id is float bits
 /// Any other channel of the file is the plane "channel:NAME".

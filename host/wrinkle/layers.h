@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "wrinkle/camera.h"
 #include "wrinkle/decal_layers.h"
@@ -18,7 +19,7 @@
 ///     grain.name = "grain";
 ///     grain.bump = wrinkle::NoiseLayer{.frequency = 20, .octaves = 4};
 ///     grain.scale = 0.002;    // metres
-///     grain.mask.object = 7;  // only on this object
+///     grain.mask.object = {7};  // only on this object
 ///
 /// Threads: values, used as any other: read by several at once, or changed by one.
 namespace [[gnu::visibility("default")]] wrinkle {
@@ -183,9 +184,10 @@ struct MaskTexture {
 };
 
 struct Mask {
-    std::optional<double> object;  ///< pixels whose object index equals this
-    std::optional<std::string>
-        cryptomatte;                     ///< object name, or "#" and 8 hex digits of its hash; the coverage is the mask
+    std::vector<double> object;  ///< pixels whose object index is one of these
+    /// Objects by name, by a pattern of names ("Rock*"; ? stands for one character), or by "#" and 8 hex digits of the
+    /// hash; the mask is what they cover together.
+    std::vector<std::string> cryptomatte;
     std::optional<std::string> channel;  ///< name of a channel of the G-buffer, used as it is
     std::optional<MaskTexture> texture;  ///< first channel of an image, [0,1]
     bool invert = false;                 ///< 1 - product

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wrinkle/camera.h"
+#include "wrinkle/layers.h"
 
 /// Lights of a scene, and what they do to its picture.
 ///
@@ -47,6 +49,7 @@ struct Lighting {
     double max_ratio = 4;                ///< bound of lit(new)/lit(old), and 1/bound below
     double exposure = 0;                 ///< stops, of the PNG only
     std::vector<Light> lights;
+    std::optional<Mask> leave{};  ///< where the picture stays as it is; a mask without a texture
 };
 
 }  // namespace wrinkle

@@ -157,5 +157,40 @@ TEST(Frames, TexturesThatLookLikeSomethingElseAreWarnedOf) {
     expect_mentions(place.run("info scene.toml").out, {"run refuses the scene: ", "dirt"});
 }
 
+TEST(Frames, AlphaGoesOnFromTheFrameOrFromTheFileOfItsBeauty) {
+    const Workplace place;
+    const auto data = [](int c, int x, int y) { return c == 2 ? 1.0f : c == 3 ? 5.0f : 0.001f * numbered(c, x, y); };
+    write_exr(place / "data.7.exr", 8, 6, {"N.X", "N.Y", "N.Z", "Z", "R", "G", "B", "A"}, data);
+    const auto picture = [](int c, int x, int) { return c == 3 ? static_cast<float>(x) / 8 : 0.25f; };
+    write_exr(place / "beauty.7.exr", 8, 6,
+              {"VL.Combined.R", "VL.Combined.G", "VL.Combined.B", "VL.Combined.A", "R", "G", "B"}, picture);
+    const std::string layer =
+        "[[layer]]\nkind = \"constant\"\ngradient = [0, 0, 0]\n"
+        "[lighting]\nrelight = \"ratio\"\n[[light]]\nkind = \"sun\"\ndirection = [0.1, 0, -1]\n";
+    const auto write = [&](const std::string& beauty) {
+        write_text(place / "scene.toml",
+                   "[gbuffer]\nfile = \"data.#.exr\"\n" + beauty +
+                       "\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\nfov = 10\n" + layer);
+    };
+    const auto expect_relit = [&](const Pixel& wanted, int green, int alpha) {
+        const Ran ran = place.run("run scene.toml --frames 7");
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        auto got = planes_of(GBufferReader(place / "out/lit.0007.exr"), {"channel:G", "channel:A"});
+        for (int i = 0; i < 48; ++i) {
+            EXPECT_EQ(got["channel:G"][static_cast<std::size_t>(i)], wanted(green, i % 8, i / 8)) << i;
+            EXPECT_EQ(got["channel:A"][static_cast<std::size_t>(i)], wanted(alpha, i % 8, i / 8)) << i;
+        }
+    };
+    write("");
+    expect_relit(data, 5, 7);
+    write("beauty = { file = \"beauty.#.exr\", layer = \"VL.Combined\" }");
+    expect_relit(picture, 1, 3);
+    write("beauty = { file = \"beauty.#.exr\", layer = \"Combine\" }");
+    expect_failed(place.run("run scene.toml --frames 7"), {"beauty.7.exr", "Combine"});
+    write_exr(place / "beauty.7.exr", 8, 5, {"R", "G", "B"}, picture);
+    write("beauty = { file = \"beauty.#.exr\" }");
+    expect_failed(place.run("run scene.toml --frames 7"), {"beauty.7.exr: the beauty has 8x5 pixels", "8x6"});
+}
+
 }  // namespace
 }  // namespace wrinkle::test

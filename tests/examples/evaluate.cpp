@@ -21,7 +21,7 @@ int main() try {
     wrinkle::Layer ramp;
     ramp.name = "ramp";
     ramp.bump = wrinkle::ConstantLayer{{0.75, 0, 5}};
-    ramp.mask.object = 7;
+    ramp.mask.object = {7};
     wrinkle::Scene scene;
     scene.layers = {ramp};
     scene.output.marked = true;

@@ -120,8 +120,8 @@ TEST(HeaderExample, SceneAndPasses) {
     wrinkle::Layer grain;
     grain.name = "grain";
     grain.bump = wrinkle::NoiseLayer{.frequency = 20, .octaves = 4};
-    grain.scale = 0.002;    // metres
-    grain.mask.object = 7;  // only on this object
+    grain.scale = 0.002;      // metres
+    grain.mask.object = {7};  // only on this object
     wrinkle::Scene scene;
     scene.layers = {grain};
     scene.output.half = true;  // 16-bit files

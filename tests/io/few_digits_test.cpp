@@ -1,4 +1,6 @@
 // Files that hold fewer digits than their channels have room for, or than their header says there are bytes of.
+#include <half.h>
+
 #include <cmath>
 
 #include "io/gbuffer_reader.h"
@@ -23,8 +25,10 @@ io::UvDigits digits_of(const std::function<float(float)>& round) {
 
 TEST(FewDigits, OfUvAreSeenInWideChannels) {
     EXPECT_EQ(digits_of([](float v) { return v; }), io::UvDigits::enough);
-    EXPECT_EQ(digits_of([](float v) { return std::ldexp(std::round(std::ldexp(v, 11)), -11); }), io::UvDigits::half);
+    EXPECT_EQ(digits_of([](float v) { return static_cast<float>(Imath::half(v)); }), io::UvDigits::half);
     EXPECT_EQ(digits_of([](float v) { return std::round(255 * v) / 255; }), io::UvDigits::byte);
+    EXPECT_EQ(digits_of([](float v) { return std::ldexp(std::round(std::ldexp(v, 7)), -7); }), io::UvDigits::enough)
+        << "a ramp over 64 pixels";
     EXPECT_EQ(digits_of([](float) { return 0.0f; }), io::UvDigits::enough) << "nothing to judge by";
 }
 

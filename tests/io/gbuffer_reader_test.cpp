@@ -156,6 +156,29 @@ TEST(GBufferReader, OverscanBelongsToTheFrameWhereItIsWanted) {
     EXPECT_EQ(plane[12 * 14], 0);
 }
 
+TEST(GBufferReader, TheBeautyMayBeAnotherFiles) {
+    TempFolder folder;
+    write_exr(folder / "data.exr", 8, 6, {"N.X", "N.Y", "N.Z", "R", "G", "B"});
+    write_exr(folder / "beauty.exr", 8, 6, {"A", "N.X", "R", "G", "B"});
+    GBufferSource source;
+    source.beauty_file = folder / "beauty.exr";
+    const GBufferReader reader(folder / "data.exr", source);
+    const auto planes = read(reader, 1, 3, {"beauty.a", "normal.x", "beauty.r", "channel:R"});
+    const auto of = [](const GBufferReader& file, const char* channel) { return read(file, 1, 3, {channel})[0]; };
+    EXPECT_EQ(planes[0], of(GBufferReader(folder / "beauty.exr"), "channel:A"));
+    EXPECT_EQ(planes[1], of(GBufferReader(folder / "data.exr"), "normal.x"));
+    EXPECT_EQ(planes[2], of(GBufferReader(folder / "beauty.exr"), "channel:R"));
+    EXPECT_EQ(planes[3], of(GBufferReader(folder / "data.exr"), "channel:R"));
+    EXPECT_NE(planes[2], planes[3]);
+    EXPECT_FALSE(GBufferReader(folder / "data.exr").has_plane("beauty.a"));
+    write_exr(folder / "beauty.exr", 8, 6,
+              {"VL.Combined.R", "VL.Combined.G", "VL.Combined.B", "VM.Combined.R", "VM.Combined.G", "VM.Combined.B"});
+    expect_mentions(error_of([&] { GBufferReader(folder / "data.exr", source); }),
+                    {"\"VL.Combined\", \"VM.Combined\" could be the beauty", "layer = \"VL.Combined\""});
+    write_exr(folder / "beauty.exr", 8, 6, {"N.X"});
+    expect_mentions(error_of([&] { GBufferReader(folder / "data.exr", source); }), {"beauty.exr", "beauty"});
+}
+
 TEST(GBufferReader, SaysWhichRoleHasNoChannels) {
     TempFolder folder;
     write_exr(folder / "a.exr", 4, 4, {"N.X", "N.Y", "N.Z"});

@@ -32,7 +32,7 @@ Names layers(std::initializer_list<std::pair<const char*, const char*>> parts) {
 }
 
 TEST(Roles, EveryRoleHasThePlanesOfTheContract) {
-    EXPECT_EQ(gbuffer_roles().size(), 17u);
+    EXPECT_EQ(gbuffer_roles().size(), 22u);
     EXPECT_EQ(gbuffer_roles().front().planes, (Names{"position.x", "position.y", "position.z"}));
 }
 
@@ -54,6 +54,21 @@ TEST(Roles, Blender) {
     EXPECT_EQ(map.cryptomatte_layer, "ViewLayer.CryptoObject");
     EXPECT_FALSE(map.has_role("albedo"));
     EXPECT_FALSE(map.has_role("dp_du"));
+}
+
+TEST(Roles, LightThatNoBumpChanges) {
+    expect_channels(detect_roles(layers({{"VL.Normal", "XYZ"},
+                                         {"VL.Emit", "RGB"},
+                                         {"VL.TransDir", "RGB"},
+                                         {"VL.TransInd", "RGB"},
+                                         {"VL.Transmission Color", "RGB"}})),
+                    {{"emission.g", "VL.Emit.G"},
+                     {"transmission_direct.r", "VL.TransDir.R"},
+                     {"transmission_indirect.b", "VL.TransInd.B"},
+                     {"transmission_color.g", "VL.Transmission Color.G"}});
+    const auto map = detect_roles(layers({{"N", "XYZ"}, {"emission", "RGB"}, {"transmission", "RGB"}}));
+    expect_channels(map, {{"emission.r", "emission.R"}, {"transmission.r", "transmission.R"}});
+    EXPECT_FALSE(map.has_role("transmission_direct"));
 }
 
 TEST(Roles, TangentsWithTheirSign) {

@@ -15,7 +15,7 @@ Layer table(std::vector<Projector> rows, const std::string& name = "table") {
 
 TEST(PlanOfDecals, GroupsDecalsThatShareMaskAndSampling) {
     Layer masked = layer(decal(), "c");
-    masked.mask.object = 3;
+    masked.mask.object = {3};
     Layer plain = layer(decal(), "d");
     std::get<DecalLayer>(plain.bump).texture.upscale = Upscale::plain;
     Layer undone = layer(decal("crack.png"), "b");

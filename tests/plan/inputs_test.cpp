@@ -86,15 +86,15 @@ TEST(PlanInputs, NamesTheLayerAndThePlanesItLacks) {
     weave.location = "scene.toml:12";
     expect_mentions(refusal(scene_of({weave}), bare), {"scene.toml:12", "weave", "uv.u", "normal.x"});
     Layer masked = layer(ConstantLayer{}, "moss");
-    masked.mask.object = 3;
+    masked.mask.object = {3};
     expect_mentions(refusal(scene_of({masked}), bare), {"moss", "object"});
     masked.mask = {};
     masked.mask.channel = "dirt";
     expect_mentions(refusal(scene_of({masked}), bare), {"moss", "dirt"});
     masked.mask = {};
-    masked.mask.cryptomatte = "Rock";
+    masked.mask.cryptomatte = {"Rock"};
     expect_mentions(refusal(scene_of({masked}), bare), {"moss", "crypto.id0"});
-    masked.mask.cryptomatte = "Rok";
+    masked.mask.cryptomatte = {"Rok"};
     expect_mentions(refusal(scene_of({masked}), everything()), {"moss", "\"Rok\"", "Rock, Wall"});
     Scene ratio = scene_of({});
     ratio.lighting.relight = Relight::ratio;
@@ -105,12 +105,36 @@ TEST(PlanInputs, NamesTheLayerAndThePlanesItLacks) {
 
 TEST(PlanInputs, CryptomatteNamesBecomeTheirHashes) {
     Layer masked = layer(ConstantLayer{{1, 0, 0}});
-    masked.mask.cryptomatte = "Rock";
+    masked.mask.cryptomatte = {"Rock"};
     const Scene scene = scene_of({masked});
     EXPECT_EQ(numbers(make_plan(scene, everything()), scene, "cryptomatte"), (std::vector<double>{0x1234, 0x5678}));
-    masked.mask.cryptomatte = "#0000beef";
+    masked.mask.cryptomatte = {"#0000beef"};
     const Scene other = scene_of({masked});
     EXPECT_EQ(numbers(make_plan(other, everything()), other, "cryptomatte"), (std::vector<double>{0, 0xbeef}));
+}
+
+TEST(PlanInputs, ListsAndPatternsBecomeTheHashesOfAllThatTheyName) {
+    Available available = everything();
+    available.cryptomatte = {{"Rock.1", 3u}, {"Rock.2", 1u}, {"Rocket", 2u},
+                             {"Wall", 9u},   {"W*", 7u},     {"#0000beef", 8u}};
+    Layer masked = layer(ConstantLayer{{1, 0, 0}}, "moss");
+    const auto low_halves = [&](const std::vector<std::string>& names) {
+        masked.mask.cryptomatte = names;
+        const Scene scene = scene_of({masked});
+        std::vector<double> low;
+        const auto all = numbers(make_plan(scene, available), scene, "cryptomatte", available);
+        for (std::size_t i = 1; i < all.size(); i += 2) low.push_back(all[i]);
+        return low;
+    };
+    EXPECT_EQ(low_halves({"Rock.?"}), (std::vector<double>{1, 3}));
+    EXPECT_EQ(low_halves({"Wall", "Rock*", "Rocket"}), (std::vector<double>{1, 2, 3, 9})) << "each once";
+    EXPECT_EQ(low_halves({"W*"}), (std::vector<double>{7})) << "an object that is called so";
+    EXPECT_EQ(low_halves({"*"}), (std::vector<double>{1, 2, 3, 7, 9})) << "hashes are no names";
+    masked.mask.cryptomatte = {"Wall", "Moss*"};
+    expect_mentions(refusal(scene_of({masked}), available), {"moss", "\"Moss*\"", "matches none", "Rock.1, Rock.2"});
+    for (std::uint32_t i = 0; i < 2000; ++i) available.cryptomatte.emplace(fmt::format("leaf {}", i), 100 + i);
+    masked.mask.cryptomatte = {"leaf*"};
+    expect_mentions(refusal(scene_of({masked}), available), {"moss", "2000 Cryptomatte objects; at most 1024"});
 }
 
 TEST(PlanInputs, HeightsOfAChannelReadTheirNeighboursOnly) {

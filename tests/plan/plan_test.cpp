@@ -52,7 +52,7 @@ TEST(Plan, OriginsRepeatAsTheirLayersDo) {
 
 TEST(Plan, DerivesTextureCoordinatesWhereMasksWantThem) {
     Layer woven = layer(normal_map(), "weave"), dirty = woven, anywhere = woven;
-    woven.mask.object = 3;
+    woven.mask.object = {3};
     dirty.mask.channel = "dirt", dirty.mask.invert = true;
     const auto wanted = [](std::vector<Layer> layers, const PlanOptions& options = {}, bool marked = false) {
         Scene scene = scene_of(std::move(layers));
@@ -90,7 +90,8 @@ TEST(Plan, ListsSectionsByStage) {
     }
     EXPECT_EQ(stages, (std::vector<int>{0, 0, 0, 1, 1, 1, 1}));
     EXPECT_EQ(plan.sections[5].planes,
-              (Names{"albedo.b", "albedo.g", "albedo.r", "beauty.b", "beauty.g", "beauty.r", "metallic", "roughness"}));
+              (Names{"albedo.b", "albedo.g", "albedo.r", "beauty.b", "beauty.g", "beauty.r", "emission.b", "emission.g",
+                     "emission.r", "metallic", "roughness", "transmission.b", "transmission.g", "transmission.r"}));
     EXPECT_EQ(plan.kernels.size(), 1u);
     PlanOptions split;
     split.split = true;

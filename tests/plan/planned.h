@@ -58,8 +58,8 @@ inline std::vector<std::string> titles(const Plan& plan) {
 }
 
 /// The numbers of a plan whose description holds `what`, in order.
-inline std::vector<double> numbers(const Plan& plan, const Scene& scene, const std::string& what) {
-    const Available all = everything();
+inline std::vector<double> numbers(const Plan& plan, const Scene& scene, const std::string& what,
+                                   const Available& all = everything()) {
     std::vector<double> found;
     for (const PlannedNumbers& planned : plan.numbers)
         if (planned.name.find(what) != std::string::npos)

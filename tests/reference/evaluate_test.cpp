@@ -166,15 +166,15 @@ TEST(Evaluate, MasksMultiply) {
     run.frame.add("crypto.coverage0", 0.25);
     Mask& mask = run.scene.layers[0].mask;
     const auto share = [&] { return dot(run.at(617).surface_gradient, whole) / dot(whole, whole); };
-    mask.object = 3;
+    mask.object = {3};
     EXPECT_NEAR(share(), 1, 1e-12);
     mask.channel = "dirt";
-    mask.cryptomatte = "Rock";
+    mask.cryptomatte = {"Rock"};
     EXPECT_NEAR(share(), 0.125, 1e-12);
     mask.invert = true;
     EXPECT_NEAR(share(), 0.875, 1e-12);
     mask = {};
-    mask.object = 4;
+    mask.object = {4};
     EXPECT_EQ(share(), 0);
 }
 

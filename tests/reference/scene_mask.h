@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "tests/reference/frame.h"
@@ -13,7 +14,7 @@ class SceneMask {
 public:
     SceneMask(const Mask& mask, bool footprint, const Frame<T>& frame, SceneTextures<T>& textures)
         : mask_(mask), footprint_(footprint) {
-        if (mask.object) object_ = frame.plane("object");
+        if (!mask.object.empty()) object_ = frame.plane("object");
         if (mask.channel) channel_ = frame.plane("channel:" + *mask.channel);
         if (mask.texture) texture_ = textures.values(mask.texture->file.string());
     }
@@ -21,8 +22,15 @@ public:
     /// Nothing when it has a texture and the UV plane has no derivative here.
     std::optional<T> at(std::size_t i, const Surfel<T>& s) const {
         T m = 1;
-        if (mask_.object) m *= object_[i] == static_cast<float>(*mask_.object) ? T(1) : T(0);
-        if (mask_.cryptomatte) m *= s.coverage(*mask_.cryptomatte);
+        if (!mask_.object.empty())
+            m *= std::ranges::any_of(mask_.object, [&](double k) { return object_[i] == static_cast<float>(k); })
+                     ? T(1)
+                     : T(0);
+        if (!mask_.cryptomatte.empty()) {
+            T covered = 0;
+            for (const std::string& name : mask_.cryptomatte) covered += s.coverage(name);
+            m *= covered;
+        }
         if (mask_.channel) m *= saturate(T(channel_[i]));
         if (mask_.texture) {
             const auto st = map_coordinates(mask_.texture->uv, s);

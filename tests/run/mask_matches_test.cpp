@@ -20,14 +20,14 @@ Layer layer(const std::string& name) {
 
 Layer on_object(const std::string& name, double object, bool invert = false) {
     Layer l = layer(name);
-    l.mask.object = object;
+    l.mask.object = {object};
     l.mask.invert = invert;
     return l;
 }
 
 Layer on_name(const std::string& name, const std::string& cryptomatte) {
     Layer l = layer(name);
-    l.mask.cryptomatte = cryptomatte;
+    l.mask.cryptomatte = {cryptomatte};
     return l;
 }
 
@@ -83,6 +83,19 @@ TEST(MaskMatches, ListTheFirstIndicesOnly) {
     EXPECT_TRUE(line.ends_with("has 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, ...")) << line;
     see_objects(matches, {-1});
     EXPECT_EQ(matches.warnings(), Lines{}) << "found although the list is full";
+}
+
+TEST(MaskMatches, WantOneOfAPatternAndAllOfAList) {
+    Layer some = on_object("some", 1);
+    some.mask.object = {1, 4};
+    MaskMatches matches(scene_of({some, on_name("all", "*"), on_name("rocks", "Roc?"), on_name("walls", "Wa*")}));
+    matches.begin(frame());
+    const std::vector<float> id{std::bit_cast<float>(0x3f800001u)}, coverage{1}, object{1};
+    matches.see({{"object", object.data()}, {"crypto.id0", id.data()}, {"crypto.coverage0", coverage.data()}}, 1);
+    EXPECT_EQ(
+        matches.warnings(),
+        (Lines{"scene.toml:7: layer \"some\": no pixel has object 4; the frame has 1",
+               "scene.toml:7: layer \"walls\": no pixel has the Cryptomatte object \"Wa*\"; the frame has Rock"}));
 }
 
 TEST(MaskMatches, LookAtEveryRankThatCoversSomething) {

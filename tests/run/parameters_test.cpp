@@ -189,7 +189,7 @@ TEST(Parameters, StayWithinTheStructure) {
                    {"\"type\" in layer \"grain\" is worley where the pass is made for perlin"});
     expect_refused([&](Scene& s) { noise(s).shape.power = 2; },
                    {"\"power\" in shape of layer \"grain\" is given where the pass is made for not given"});
-    expect_refused([](Scene& s) { s.layers[1].mask.object = 1; }, {"\"mask\" in layer \"tilt\" is given"});
+    expect_refused([](Scene& s) { s.layers[1].mask.object = {1}; }, {"\"mask\" in layer \"tilt\" is given"});
     expect_refused([](Scene& s) { s.layers[1].bump = ResolveLayer{}; }, {"\"kind\" in layer \"tilt\" is resolve"});
     expect_refused([](Scene& s) { s.layers[1].project = false; }, {"\"project\" in layer \"tilt\""});
     expect_refused([](Scene& s) { s.layers.pop_back(); }, {"\"layer\" in the scene is 1"});

@@ -99,5 +99,58 @@ TEST(Relit, MetalStaysAsItIs) {
             EXPECT_EQ(got.at(std::string("lit.") + color)[i] == 0.5f, i % 2 == 0) << i;
 }
 
+/// A tilted plane of grey, lit by a sun that a bump turns away from.
+HostFrame grey_plane() {
+    HostFrame frame(plane_frame(test_camera(), {19, 5}, normalize(V{0.1, -0.2, 1})), test_camera());
+    for (const char color : {'r', 'g', 'b'}) frame.add(std::string("beauty.") + color, 0.5f);
+    return frame;
+}
+
+Scene sunlit() {
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].bump = ConstantLayer{{0.5, 0, 0}};
+    scene.lighting.relight = Relight::ratio;
+    scene.lighting.lights = {Light{.direction = {-0.6, 0, -0.8}}};
+    return scene;
+}
+
+TEST(Relit, WhatIsLeftStaysAsItIs) {
+    HostFrame frame = grey_plane();
+    std::vector<float>& object = frame.add("object", 1);
+    for (std::size_t i = 0; i < object.size(); ++i) object[i] = static_cast<float>(i % 3);
+    Scene scene = sunlit();
+    scene.lighting.leave.emplace().object = {0, 2};
+    const Pixels got = evaluate_on(frame, scene);
+    for (std::size_t i = 0; i < frame.count(); ++i) EXPECT_EQ(got.at("lit.g")[i] == 0.5f, i % 3 != 1) << i;
+    scene.lighting.leave->invert = true;
+    EXPECT_EQ(evaluate_on(frame, scene).at("lit.g")[1], 0.5f);
+    scene.lighting.leave->invert = false;
+    scene.lighting.relight = Relight::lit;
+    const Pixels anew = evaluate_on(frame, scene);
+    for (std::size_t i = 0; i < frame.count(); ++i) EXPECT_EQ(anew.at("lit.g")[i] == 0.5f, i % 3 != 1) << i;
+}
+
+TEST(Relit, WhatSurfacesGiveOffOrLetThroughStaysAsItIs) {
+    const HostFrame plain = grey_plane();
+    const float whole = evaluate_on(plain, sunlit()).at("lit.g")[0];  // 0.5 times the ratio
+    ASSERT_GT(std::abs(whole - 0.5f), 0.05f);
+    const auto with = [&](std::initializer_list<std::pair<const char*, float>> layers) {
+        HostFrame frame = grey_plane();
+        for (const auto& [layer, value] : layers)
+            for (const char color : {'r', 'g', 'b'}) frame.add(fmt::format("{}.{}", layer, color), value);
+        return evaluate_on(frame, sunlit()).at("lit.g")[0];
+    };
+    EXPECT_NEAR(with({{"emission", 0.2f}}), 0.2f + 0.6f * whole, 1e-6);
+    EXPECT_NEAR(with({{"emission", 0.5f}}), 0.5f, 1e-6);
+    EXPECT_NEAR(with({{"transmission", 0.1f}}), 0.1f + 0.8f * whole, 1e-6);
+    EXPECT_NEAR(with({{"emission", 0.1f}, {"transmission", 0.2f}}), 0.3f + 0.4f * whole, 1e-6);
+    EXPECT_NEAR(with({{"transmission_direct", 0.1f}, {"transmission_indirect", 0.3f}, {"transmission_color", 0.5f}}),
+                0.2f + 0.6f * whole, 1e-6);
+    EXPECT_NEAR(with({{"emission", -1}}), whole, 1e-6);
+    EXPECT_NEAR(with({{"transmission", 9}}), 0.5f, 1e-6);
+    EXPECT_NEAR(with({{"emission", std::numeric_limits<float>::quiet_NaN()}}), whole, 1e-6);
+}
+
 }  // namespace
 }  // namespace wrinkle::test

@@ -8,7 +8,7 @@ Layer constant_on(double object) {
     Layer layer;
     layer.name = fmt::format("tilt of object {}", object);
     layer.bump = ConstantLayer{.gradient = {0.3, -0.2, 0.4}};
-    layer.mask.object = object;
+    layer.mask.object = {object};
     return layer;
 }
 
@@ -76,7 +76,7 @@ TEST(Spared, ParallaxLeavesOthersAsTheyAre) {
     ASSERT_EQ(still.layers.size(), 1u);
     constexpr float torus = 3;
     still.layers[0].mask = {};
-    still.layers[0].mask.object = torus;
+    still.layers[0].mask.object = {torus};
     still.layers.push_back(constant_on(1));
     still.output.dp_dx = still.output.dp_dy = true;
     Scene moved = still;
@@ -95,11 +95,11 @@ TEST(Spared, MasksDoNotChangeWhatTextureCoordinatesAre) {
     const HostFrame frame = small_frame();
     const Layer stones = data_scene("height_map").layers.at(1);
     std::vector<Mask> masks(4);
-    masks[0].object = 1;
-    masks[1].object = 1, masks[1].invert = true;
-    masks[2].cryptomatte = frame.frame.cryptomatte.begin()->first;
+    masks[0].object = {1};
+    masks[1].object = {1}, masks[1].invert = true;
+    masks[2].cryptomatte = {frame.frame.cryptomatte.begin()->first};
     masks[3] = stones.mask, masks[3].texture = MaskTexture{.file = data_folder / "textures/cobbles_height.png"};
-    masks[3].object = 2;
+    masks[3].object = {2};
     for (std::size_t k = 0; k < masks.size(); ++k) {
         Scene scene = data_scene("height_map");
         scene.layers = {stones};

@@ -131,6 +131,13 @@ TEST_F(BadLayers, KeysWithoutEffect) {
     expect_problem_with(noise("mask = { invert = true }\n"), 7, {"needs one of the keys object"});
     expect_problem_with(noise("mask = { object = 1, uv = { scale = 2 } }\n"), 7, {"\"uv\"", "the key \"texture\""});
     expect_problem_with(noise("mask = { cryptomatte = \"#12\" }\n"), 7, {"is \"#12\"", "8 hex digits"});
+    expect_problem_with(noise("mask = { cryptomatte = [\"Rock*\", \"#12\"] }\n"), 7, {"is \"#12\"", "8 hex digits"});
+    expect_problem_with(noise("mask = { object = [] }\n"), 7, {"must be a number, or an array of numbers"});
+    expect_problem_with(noise("mask = { object = [3, \"4\"] }\n"), 7, {"\"object\"", "must be a number"});
+    expect_problem_with(noise("mask = { cryptomatte = [\"Rock\", 4] }\n"), 7, {"must be a text"});
+    expect_problem_with("[lighting]\nleave = { invert = true }\n", 6,
+                        {"leave of [lighting] needs one of the keys object"});
+    expect_problem_with("[lighting]\nleave = { object = 1, texture = \"a.png\" }\n", 6, {"unknown key \"texture\""});
     expect_problem_with("[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n", 5,
                         {"has no effect", "relight = \"lit\""});
     expect_problem_with("[lighting]\nrelight = \"lit\"\n", 6, {"relight without light"});

@@ -10,8 +10,8 @@ TEST_F(Check, NumbersOfEveryLayer) {
         {{"scale = nan", [](NoiseLayer&, Layer& l) { l.scale = nan; }},
          {"scale = 1e39", [](NoiseLayer&, Layer& l) { l.scale = 1e39; }},
          {"mask = { object = inf }",
-          [](NoiseLayer&, Layer& l) { l.mask.object = std::numeric_limits<double>::infinity(); }},
-         {"mask = { cryptomatte = \"#12\" }", [](NoiseLayer&, Layer& l) { l.mask.cryptomatte = "#12"; }},
+          [](NoiseLayer&, Layer& l) { l.mask.object = {std::numeric_limits<double>::infinity()}; }},
+         {"mask = { cryptomatte = \"#12\" }", [](NoiseLayer&, Layer& l) { l.mask.cryptomatte = {"#12"}; }},
          {"mask = { invert = true }", [](NoiseLayer&, Layer& l) { l.mask.invert = true; }},
          {"mask = { texture = \"textures/wall.png\", uv = { scale = [0.0, 1.0] } }", [this](NoiseLayer&, Layer& l) {
               l.mask.texture = MaskTexture{wall(), {.scale = {0, 1}}};

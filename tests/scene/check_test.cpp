@@ -42,8 +42,8 @@ TEST_F(Check, NamesAndTexts) {
     odd = layer(HeightChannelLayer{"a\tb"});
     expect_refused(odd, {"\"channel\" in layer \"bump\" must be a text without control characters"});
     odd = layer<NoiseLayer>();
-    odd.mask.cryptomatte = "";
-    expect_refused(odd, {"mask of layer \"bump\" needs \"cryptomatte\""});
+    odd.mask.cryptomatte = {""};
+    expect_refused(odd, {"\"cryptomatte\" in mask of layer \"bump\" must be a text that is not empty"});
 
     Scene scene;
     scene.layers = {layer<NoiseLayer>(), layer<ConstantLayer>(), layer<NoiseLayer>()};

@@ -40,8 +40,8 @@ TEST_F(GoodLayers, MappedLayers) {
     EXPECT_EQ(height_map.uv.scale, (std::array<double, 2>{2, -3}));
     EXPECT_EQ(height_map.uv.axis_u, (Vec3{0, 1, 0}));
     EXPECT_EQ(height_map.uv.axis_v, (Vec3{0, 0, 2}));
-    EXPECT_EQ(second.mask.object, 3);
-    EXPECT_EQ(second.mask.cryptomatte, "#1a2b3c4d");
+    EXPECT_EQ(second.mask.object, std::vector{3.0});
+    EXPECT_EQ(second.mask.cryptomatte, std::vector<std::string>{"#1a2b3c4d"});
     EXPECT_EQ(second.mask.channel, "Dust.R");
     EXPECT_TRUE(second.mask.invert);
     ASSERT_TRUE(second.mask.texture);
@@ -91,7 +91,21 @@ TEST_F(GoodLayers, OtherLayers) {
     EXPECT_TRUE(parallax.curved);
     EXPECT_EQ(scene.layers[7].scale, 0.25);
     EXPECT_FALSE(scene.layers[7].footprint);
-    EXPECT_EQ(scene.layers[7].mask.object, 2);
+    EXPECT_EQ(scene.layers[7].mask.object, std::vector{2.0});
+}
+
+TEST_F(GoodLayers, MasksOfSeveralObjects) {
+    const Scene scene = load_with(R"([[layer]]
+kind = "noise"
+mask = { object = [3, 4.0], cryptomatte = ["Rock*", "#1a2b3c4d"] }
+[lighting]
+leave = { cryptomatte = "Glass?", object = [7] }
+)");
+    EXPECT_EQ(scene.layers[0].mask.object, (std::vector{3.0, 4.0}));
+    EXPECT_EQ(scene.layers[0].mask.cryptomatte, (std::vector<std::string>{"Rock*", "#1a2b3c4d"}));
+    ASSERT_TRUE(scene.lighting.leave);
+    EXPECT_EQ(scene.lighting.leave->cryptomatte, std::vector<std::string>{"Glass?"});
+    EXPECT_EQ(scene.lighting.leave->object, std::vector{7.0});
 }
 
 TEST_F(GoodLayers, ObjectNormals) {
