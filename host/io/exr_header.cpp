@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "base/claim.h"
 #include "base/names.h"
@@ -23,6 +24,33 @@ constexpr std::size_t kLongestName = 255;
 /// Attributes that decide where in the file which pixels are.
 constexpr std::array<std::string_view, 9> kLayout{"channels", "compression", "dataWindow", "displayWindow", "lineOrder",
                                                   "tiles",    "type",        "chunkCount", "version"};
+
+/// What values of a type take in a file, where that is always the same. OpenEXR reads so much of them whatever size the
+/// file states, and what it takes for the next attribute then is another one than for others.
+constexpr std::pair<std::string_view, std::int32_t> kSizes[] = {{"box2i", 16},
+                                                                {"box2f", 16},
+                                                                {"chromaticities", 32},
+                                                                {"compression", 1},
+                                                                {"deepImageState", 1},
+                                                                {"double", 8},
+                                                                {"envmap", 1},
+                                                                {"float", 4},
+                                                                {"int", 4},
+                                                                {"keycode", 28},
+                                                                {"lineOrder", 1},
+                                                                {"m33f", 36},
+                                                                {"m33d", 72},
+                                                                {"m44f", 64},
+                                                                {"m44d", 128},
+                                                                {"rational", 8},
+                                                                {"tiledesc", 9},
+                                                                {"timecode", 8},
+                                                                {"v2i", 8},
+                                                                {"v2f", 8},
+                                                                {"v2d", 16},
+                                                                {"v3i", 12},
+                                                                {"v3f", 12},
+                                                                {"v3d", 24}};
 
 struct Box {
     double width = 0, height = 0;
@@ -82,6 +110,7 @@ private:
         return Box{1.0 + b[2] - b[0], 1.0 + b[3] - b[1]};
     }
 
+    /// Bytes of a pixel. Ends where the list does.
     double channels(std::int64_t end) {
         double bytes = 0;
         while (bytes_.tell() < end) {
@@ -91,6 +120,24 @@ private:
             bytes += fields[0] == 1 ? 2 : 4;
         }
         return bytes;
+    }
+
+    /// Whether the value that begins here ends where the file says.
+    bool fits(std::string_view type, std::int64_t end) {
+        const std::int64_t size = end - bytes_.tell();
+        if (type == "chlist") {
+            channels(end);
+            return bytes_.tell() == end;
+        }
+        if (type == "stringvector") {
+            std::uint32_t length = 0;
+            while (bytes_.tell() < end && get(length)) bytes_.seek(bytes_.tell() + std::int64_t{length});
+            return bytes_.tell() == end;
+        }
+        if (std::array<std::uint32_t, 2> sides{}; type == "preview")
+            return get(sides) && 8 + 4.0 * sides[0] * sides[1] == static_cast<double>(size);
+        const auto known = std::ranges::find(kSizes, type, &std::pair<std::string_view, std::int32_t>::first);
+        return known == std::end(kSizes) || known->second == size;
     }
 
     /// Nothing where the file ends, or holds no header.
@@ -109,6 +156,12 @@ private:
                     fmt::format("{}: the attribute {} claims {} bytes, more than the file has: it is damaged or "
                                 "cut short",
                                 file_->name(), quote(*name), static_cast<std::uint32_t>(size)));
+            if (!fits(*type, end))
+                throw Error(
+                    fmt::format("{}: the attribute {} is of type {}, whose values do not take {} bytes: "
+                                "it is damaged",
+                                file_->name(), quote(*name), quote(*type), size));
+            bytes_.seek(from);
             if (!part.names.insert(*name).second && std::ranges::find(kLayout, *name) != kLayout.end())
                 throw Error(
                     fmt::format("{}: the header has two attributes {}, and programs differ about which of them "

@@ -71,6 +71,28 @@ TEST(ExrHeader, TilesOfAScanlineFileDivideNothing) {
     }
 }
 
+/// OpenEXR reads what a type takes whatever size is stated, then some byte as the next attribute's size: gigabytes.
+TEST(ExrHeader, SizesAreThoseOfTheTypes) {
+    const TempFolder folder;
+    const std::string short_string = as_bytes(std::int32_t{2}) + "ab", long_string = as_bytes(std::int32_t{1 << 30});
+    for (const auto& [type, value] : std::vector<std::pair<const char*, std::string>>{
+             {"int", std::string(5, '\0')},
+             {"m44f", std::string(16, '\0')},
+             {"preview", as_bytes(std::array<std::uint32_t, 2>{1U << 15, 1U << 15})},
+             {"stringvector", short_string + long_string},
+             {"chlist", std::string(3, '\0')}}) {
+        ExrHeader header;
+        header.after = exr_attribute("odd", type, value);
+        expect_mentions(outcome_of(folder, exr_file(header)),
+                        {"odd.exr: the attribute \"odd\" is of type", type, "whose values do not take"});
+    }
+    ExrHeader sound;
+    sound.after = exr_attribute("names", "stringvector", short_string + short_string) +
+                  exr_attribute("preview", "preview", as_bytes(std::array<std::uint32_t, 3>{1, 1, 0})) +
+                  exr_attribute("own", "of a program's", "any");
+    EXPECT_EQ(outcome_of(folder, exr_file(sound)), "");
+}
+
 TEST(ExrHeader, ClaimsAreNoMemory) {
     const TempFolder folder;
     constexpr int kFar = 100'000'000;
