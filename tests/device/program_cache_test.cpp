@@ -33,9 +33,13 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
         write_program(file, key, binary);
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
-    fs::copy_file(folder / "3.program", folder / "not_ours.bin");
+    const std::string unfinished = std::string(32, 'a') + ".program.123-";
+    for (const char* other : {"not_ours.bin", "film.partial", "notes.program.old"}) {
+        fs::copy_file(folder / "3.program", folder / other);
+        fs::last_write_time(folder / other, now - std::chrono::hours(2));
+    }
     for (const int age : {0, 2}) {  // files of a run that goes on, and of one that was killed
-        const fs::path file = folder / ("9.program.123-" + std::to_string(age));
+        const fs::path file = folder / (unfinished + std::to_string(age));
         fs::copy_file(folder / "3.program", file);
         fs::last_write_time(file, now - std::chrono::hours(age));
     }
@@ -45,10 +49,11 @@ TEST(Cache, LongestUnusedProgramsGoFirst) {
     EXPECT_TRUE(fs::exists(folder / "3.program"));
     EXPECT_FALSE(fs::exists(folder / "2.program"));
     EXPECT_FALSE(fs::exists(folder / "1.program"));
-    EXPECT_TRUE(fs::exists(folder / "not_ours.bin"));
-    EXPECT_TRUE(fs::exists(folder / "9.program.123-0"));
-    EXPECT_FALSE(fs::exists(folder / "9.program.123-2"));
-    EXPECT_EQ(folder.files().size(), 4u) << "nothing unfinished is left";
+    for (const char* other : {"not_ours.bin", "film.partial", "notes.program.old"})
+        EXPECT_TRUE(fs::exists(folder / other)) << other;
+    EXPECT_TRUE(fs::exists(folder / (unfinished + "0")));
+    EXPECT_FALSE(fs::exists(folder / (unfinished + "2")));
+    EXPECT_EQ(folder.files().size(), 6u) << "nothing unfinished is left";
 }
 
 TEST(Cache, ServesNoProgramOfAnotherKey) {

@@ -1,6 +1,7 @@
 # Checks that every line of an example in a public header (a comment indented by five blanks) is in EXAMPLES, where it
 # is compiled and run. Run with -DHEADERS=... -DEXAMPLES=... -P.
 file(READ "${EXAMPLES}" examples)
+string(REGEX REPLACE " +" " " examples "${examples}")  # comments are aligned with what stands around them
 file(GLOB headers "${HEADERS}/*.h")
 foreach(header IN LISTS headers)
   file(STRINGS "${header}" lines REGEX "^ *///     ")
@@ -10,6 +11,7 @@ foreach(header IN LISTS headers)
   endif()
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "^ *///  *" "" line "${line}")
+    string(REGEX REPLACE " +" " " line "${line}")
     string(FIND "${examples}" "${line}" at)
     if(at EQUAL -1)
       message(SEND_ERROR "${header}: not in ${EXAMPLES}: ${line}")
