@@ -23,21 +23,25 @@ void expect_sum(const Pixels& all, const std::vector<V>& sum) {
         EXPECT_LE(length(vec_at(all, "surface_gradient", i) - sum[i]), 1e-4 * (1 + length(sum[i]))) << "pixel " << i;
 }
 
+/// The rows as a table, evaluated over the areas of pixels.
+Scene table_over_areas(const std::vector<Projector>& rows) {
+    Scene scene = table_scene(rows);
+    scene.filter.taps = 16;
+    scene.output = {.surface_gradient = true};
+    return scene;
+}
+
 TEST(AreaDecals, NoDecalOfATableIsLost) {
     const HostFrame frame = ground({96, 64});
     const std::vector<Projector> rows = on_surfaces(frame, 60, 0.05, 1, 3);
-    Scene table = table_scene(rows);
-    table.filter.taps = 16;
-    table.output = {.surface_gradient = true};
-    expect_sum(evaluate_area(frame, table), sum_of_rows(frame, table, 0, rows));
+    const Scene scene = table_over_areas(rows);
+    expect_sum(evaluate_area(frame, scene), sum_of_rows(frame, scene, 0, rows));
 }
 
 TEST(AreaDecals, NoDecalIsLostWhereAnotherTablePrecedesAParallax) {
     const HostFrame frame = ground({96, 64});
     const std::vector<Projector> rows = on_surfaces(frame, 25, 0.05, 0.6, 4);
-    Scene scene = table_scene(rows);
-    scene.filter.taps = 16;
-    scene.output = {.surface_gradient = true};
+    Scene scene = table_over_areas(rows);
     Layer before = scene.layers[0], moves = layer_of(ParallaxLayer{{.file = cobbles}, planar}, 0.8);
     Projector far = rows.front();
     far.center = {0, 0, 50};
