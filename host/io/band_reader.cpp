@@ -39,8 +39,12 @@ struct BandReader::Range {
     }
 };
 
-BandReader::BandReader(OpenImage image, Size size, std::vector<Part> parts)
-    : image_(std::move(image)), size_(size), parts_(std::move(parts)), zip_blocks_(image_.file(), parts_) {}
+BandReader::BandReader(OpenImage image, const ImageParts& what)
+    : image_(std::move(image)),
+      size_(what.size),
+      parts_(what.parts),
+      channels_(what.channels),
+      zip_blocks_(image_.file(), parts_) {}
 
 void BandReader::read(std::uint32_t row_begin, std::uint32_t row_end, std::span<const WantedChannel> wanted) {
     std::map<std::pair<int, bool>, Range> ranges;
@@ -78,7 +82,7 @@ void BandReader::read_range(const Range& range, std::uint32_t row_begin, std::ui
     // From here on rows are counted from the top of the data window, where the first block or tile begins.
     for (int y = top - part.y; y < bottom - part.y;) {
         const int y_end = std::min(round_down(y, step) + rows, bottom - part.y);
-        const int first = fetch(range, y, y_end);
+        const int first = glance(range, y, y_end) ? y : fetch(range, y, y_end);
         const auto separate = [&](std::int64_t from, std::int64_t to) {
             for (auto row = from; row < to; ++row) {
                 const float* in = scratch_.data() + row_floats * static_cast<std::size_t>(row - first) +
@@ -113,15 +117,43 @@ int BandReader::fetch(const Range& range, int y, int y_end) {
     if (follows) std::ranges::copy(held.rows, scratch_.begin());
     const auto row = [&](int y_of) { return scratch_.data() + row_floats * static_cast<std::size_t>(y_of - first); };
     const std::span<float> out(row(read_from), row(last));
-    if (read_from < end && !read_zip_blocks(range, read_from, end, out) &&
-        !read_interleaved(image_.input(), range, read_from, end, out))
-        fail(range, read_from, end);
+    if (read_from < end && !read_rows(range, read_from, end, out)) fail(range, read_from, end);
     const int keep = std::max(first, round_down(std::max(y_end - overlap, 0), step));
     if (row_floats * static_cast<std::size_t>(last - keep) > scratch_floats)  // tall tiles are read again instead
         held = {};
     else
         held = {range.wanted_indices(), keep, last, {row(keep), row(last)}};
     return first;
+}
+
+bool BandReader::glance(const Range& range, int y, int y_end) {
+    constexpr int few = 16;  // rows
+    const auto& part = parts_[static_cast<std::size_t>(range.part)];
+    const int first = round_down(y, part.block_rows), end = std::min(first + part.block_rows, part.height);
+    if (range.whole_numbers || y_end > end) return false;
+    const auto width = static_cast<std::size_t>(part.width), channels = static_cast<std::size_t>(part.channels);
+    std::span<const float> block = kept_.find(range.part, first);
+    if (block.empty()) {
+        const std::size_t floats = width * channels * static_cast<std::size_t>(end - first);
+        if (y_end - y > few) kept_.clear();  // the frame itself is read now
+        if (y_end - y > few || !kept_.has_room(floats)) return false;
+        Range all{range.part, 0, part.channels, false, {}};
+        for (const ChannelPlace& place : channels_)
+            if (place.part == range.part) all.wanted.push_back({place, nullptr});
+        std::vector<float> read(floats);
+        if (!read_rows(all, first, end, read)) return false;  // fetching fails again, and tells which row
+        block = kept_.keep(range.part, first, std::move(read));
+    }
+    scratch_.resize(std::max(scratch_.size(), range.channels() * width * static_cast<std::size_t>(y_end - y)));
+    const float* from = block.data() + width * channels * static_cast<std::size_t>(y - first);
+    float* to = scratch_.data();
+    for (std::size_t pixel = 0; pixel < width * static_cast<std::size_t>(y_end - y); ++pixel, from += channels)
+        to = std::copy(from + range.begin, from + range.end, to);
+    return true;
+}
+
+bool BandReader::read_rows(const Range& range, int y_begin, int y_end, std::span<float> out) {
+    return read_zip_blocks(range, y_begin, y_end, out) || read_interleaved(image_.input(), range, y_begin, y_end, out);
 }
 
 bool BandReader::read_zip_blocks(const Range& range, int y_begin, int y_end, std::span<float> out) {

@@ -8,6 +8,7 @@
 
 #include "io/image_open.h"
 #include "io/image_parts.h"
+#include "io/kept_blocks.h"
 #include "io/zip_blocks.h"
 
 namespace wrinkle::io {
@@ -21,10 +22,11 @@ struct WantedChannel {
 
 /// Reads some channels of a frame, a band of rows at a time. Each part of the file is read once, from the first to the
 /// last of the wanted channels, and then separated into planes. Decompressing ZIP blocks is most of the work. A block
-/// may belong to two bands, so the last ones of a band are kept for the next.
+/// may belong to two bands, so the last ones of a band are kept for the next; and those that a glance at a few rows
+/// took are kept for the next glance.
 class BandReader {
 public:
-    BandReader(OpenImage image, Size size, std::vector<Part> parts);
+    BandReader(OpenImage image, const ImageParts& what);
 
     /// Rows [row_begin, row_end) of the frame. Throws Error naming the first row that cannot be read.
     void read(std::uint32_t row_begin, std::uint32_t row_end, std::span<const WantedChannel> wanted);
@@ -43,7 +45,11 @@ private:
     /// Brings rows [y, y_end) of the data window into the scratch memory, with the rest of their blocks. Returns the
     /// row that the scratch memory begins with.
     int fetch(const Range& range, int y, int y_end);
-    /// False when the rows have to be read by OpenImageIO, which is slower.
+    /// Brings rows [y, y_end) into the scratch memory if they lie in a block that is kept, or are few enough to be a
+    /// glance, after which theirs is. False when they have to be fetched.
+    bool glance(const Range& range, int y, int y_end);
+    /// Fast where ZIP blocks allow it, else by OpenImageIO.
+    bool read_rows(const Range& range, int y_begin, int y_end, std::span<float> out);
     bool read_zip_blocks(const Range& range, int y_begin, int y_end, std::span<float> out);
     bool read_interleaved(OIIO::ImageInput& input, const Range& range, int y_begin, int y_end, std::span<float> out);
     [[noreturn]] void fail(const Range& range, int y_begin, int y_end);
@@ -51,7 +57,9 @@ private:
     OpenImage image_;
     Size size_;
     std::vector<Part> parts_;
+    std::vector<ChannelPlace> channels_;
     ZipBlocks zip_blocks_;
+    KeptBlocks kept_;
     std::vector<float> scratch_;  ///< interleaved rows; reused, as touching fresh memory costs as much as the copy
     std::map<std::pair<int, bool>, Held> held_;  ///< by number of the part, and whether its numbers are whole ones
 };

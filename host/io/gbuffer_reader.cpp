@@ -39,9 +39,6 @@ void turn_v(std::string_view plane, std::span<float> values) {
         for (float& value : values) value = -value;
 }
 
-/// Values of a few rows that are spread over the frame, and of which each costs a block of the file.
-constexpr std::uint32_t sampled_tenths[] = {5, 3, 7, 1, 9};
-
 }  // namespace
 
 struct GBufferReader::Impl {
@@ -115,6 +112,8 @@ struct GBufferReader::Impl {
                             path.string(), place.name, place.lossy));
     }
 
+    std::uint32_t blocks_at_a_glance(std::uint32_t most) const;
+    std::vector<std::uint32_t> glance_rows() const;
     void open(const GBufferSource& source);
     void take_beauty(const GBufferSource& source);
     bool sample_packed_normals(NormalKind kind) const;
@@ -122,13 +121,31 @@ struct GBufferReader::Impl {
     void finish_normals(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
 };
 
+std::uint32_t GBufferReader::Impl::blocks_at_a_glance(std::uint32_t most) const {
+    constexpr double bytes = 64e6, fewest = 3;  // a tenth of a second
+    const double largest = std::ranges::max_element(image.parts, {}, &io::Part::block_bytes)->block_bytes;
+    const auto affordable = static_cast<std::uint32_t>(std::clamp(bytes / std::max(largest, 1.0), fewest, 1e9));
+    return std::min(affordable - (affordable + 1) % 2, most);  // an odd number has the middle row, whoever asks
+}
+
+std::vector<std::uint32_t> GBufferReader::Impl::glance_rows() const {
+    constexpr std::uint32_t most = 9;
+    const std::uint32_t height = image.size.height, count = blocks_at_a_glance(std::min(most, height));
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t from_middle = (i + 1) / 2, middle = count / 2;
+        const std::uint32_t band = i % 2 == 0 ? middle + from_middle : middle - from_middle;
+        rows.push_back(static_cast<std::uint32_t>((2 * std::uint64_t{band} + 1) * height / (2 * std::uint64_t{count})));
+    }
+    return rows;
+}
+
 io::ObjectStorage GBufferReader::Impl::sample_objects() const {
     const auto* object = place("object");
     if (object == nullptr) return io::ObjectStorage::single;
     if (object->whole_numbers) return io::ObjectStorage::whole;
     std::vector<float> sample;
-    for (const std::uint32_t tenth : sampled_tenths) {
-        const auto row = tenth * image.size.height / 10;
+    for (const std::uint32_t row : glance_rows()) {
         sample.resize(sample.size() + image.size.width);
         const io::WantedChannel wanted{*object, sample.data() + sample.size() - image.size.width};
         reader->read(row, row + 1, {&wanted, 1});
@@ -141,8 +158,7 @@ bool GBufferReader::Impl::sample_packed_normals(NormalKind kind) const {
     if (!roles.has_role("normal") || kind == NormalKind::sign) return false;
     const std::size_t width = image.size.width;
     std::vector<float> planes[3];
-    for (const std::uint32_t tenth : sampled_tenths) {  // the first row nearly always decides
-        const auto row = tenth * image.size.height / 10;
+    for (const std::uint32_t row : glance_rows()) {  // the first one nearly always decides
         std::vector<io::WantedChannel> wanted;
         std::span<const float> read[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -166,7 +182,7 @@ void GBufferReader::Impl::open(const GBufferSource& source) {
         places[place.name] = &place;
     }
     roles = detect(path, channels, source, image.metadata);
-    reader = std::make_unique<io::BandReader>(std::move(opened), image.size, image.parts);
+    reader = std::make_unique<io::BandReader>(std::move(opened), image);
     if (roles.cryptomatte_ranks > 0) cryptomatte = CryptomatteManifest(image.metadata, roles.cryptomatte_layer, path);
     packed_normals = sample_packed_normals(source.normals);
     if (!source.beauty_file.empty()) take_beauty(source);
@@ -229,12 +245,8 @@ std::uint32_t GBufferReader::block_rows() const {
     const auto& parts = impl_->image.parts;
     return static_cast<std::uint32_t>(std::ranges::max_element(parts, {}, &io::Part::block_rows)->block_rows);
 }
-std::uint32_t GBufferReader::blocks_at_a_glance(std::uint32_t most) const {
-    constexpr double bytes = 64e6, fewest = 3;  // a tenth of a second
-    const auto& parts = impl_->image.parts;
-    const double largest = std::ranges::max_element(parts, {}, &io::Part::block_bytes)->block_bytes;
-    return std::min(static_cast<std::uint32_t>(std::clamp(bytes / std::max(largest, 1.0), fewest, 1e9)), most);
-}
+std::uint32_t GBufferReader::blocks_at_a_glance(std::uint32_t most) const { return impl_->blocks_at_a_glance(most); }
+std::vector<std::uint32_t> GBufferReader::glance_rows() const { return impl_->glance_rows(); }
 io::ObjectStorage GBufferReader::object_storage() const {
     if (!impl_->objects) impl_->objects = impl_->sample_objects();
     return *impl_->objects;

@@ -51,6 +51,9 @@ public:
     std::uint32_t block_rows() const;
     /// How many such blocks may be read where a glance has to do, `most` at most: fewer, the more each one holds.
     std::uint32_t blocks_at_a_glance(std::uint32_t most) const;
+    /// Rows to look at where a few have to do: at most 9, spread over the frame, the middle one first. Each costs a
+    /// block of the file, once: looks that keep to these rows and the next ones share what was decompressed.
+    std::vector<std::uint32_t> glance_rows() const;
     io::ObjectStorage object_storage() const;  ///< of the object role; the first call reads a few rows
     const Metadata& metadata() const;          ///< of all parts; where several have a value, the first part's
 

@@ -48,6 +48,7 @@ Part geometry(const OIIO::ImageSpec& spec) {
             spec.height,
             spec.x,
             spec.y,
+            spec.nchannels,
             spec.tile_width > 0 ? spec.tile_height : 0,
             rows,
             static_cast<double>(spec.pixel_bytes(true)) * spec.width * rows};

@@ -28,6 +28,7 @@ struct ChannelPlace {
 struct Part {
     int x = 0, y = 0, width = 0, height = 0;  ///< data window, relative to the frame's first pixel
     int origin_x = 0, origin_y = 0;           ///< of the data window in the file's own coordinates
+    int channels = 0;                         ///< all that are stored
     int tile_height = 0;                      ///< 0 when the part is stored by scanlines
     int block_rows = 1;      ///< that are compressed together: reading one of them takes as long as all
     double block_bytes = 0;  ///< of those rows, with all channels of the part, uncompressed

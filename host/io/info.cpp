@@ -40,7 +40,10 @@ std::vector<std::uint32_t> measured_bands(const GBufferReader& reader) {
     const std::uint32_t bands = (height + rows - 1) / rows, blocks = (rows - 1) / reader.block_rows() + 1;
     const std::uint32_t wanted = std::max(reader.blocks_at_a_glance(bands * blocks) / blocks, 1u);
     std::vector<std::uint32_t> first;
-    for (std::uint32_t i = 0; i < wanted; ++i) first.push_back((2 * i + 1) * bands / (2 * wanted) * rows);
+    for (std::uint32_t i = 0; i < wanted; ++i) {
+        const std::uint32_t middle = (2 * i + 1) * height / (2 * wanted);  // a row that others glance at
+        first.push_back(wanted == bands ? i * rows : middle - middle % rows);
+    }
     return first;
 }
 

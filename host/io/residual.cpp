@@ -44,7 +44,7 @@ std::optional<std::pair<double, double>> depth_errors(const Camera& camera, std:
 
 }  // namespace
 
-std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::uint32_t rows) {
+std::vector<PositionSample> sample_positions(const GBufferReader& reader) {
     std::vector<PositionSample> samples, by_normal_alone;
     if (!reader.has_role("position")) return samples;
     const auto [width, height] = reader.size();
@@ -58,12 +58,9 @@ std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::u
     std::vector<float*> out;
     for (auto& plane : values) out.push_back(plane.data());
 
-    const auto pairs = std::clamp(reader.blocks_at_a_glance((rows + 1) / 2), 1u, std::max(height / 2, 1u));
     const auto step = std::max(width / samples_per_row, 1u);
-    for (std::uint32_t i = 0; i < pairs; ++i) {
-        const auto middle =
-            static_cast<std::uint32_t>((2 * std::uint64_t{i} + 1) * height / (2 * std::uint64_t{pairs}));
-        const auto row = middle - middle % 2, row_end = std::min(row + 2, height);
+    for (const std::uint32_t glanced : reader.glance_rows()) {
+        const auto row = glanced - glanced % 2, row_end = std::min(row + 2, height);
         reader.read_rows(row, row_end, planes, out);
         for (std::uint32_t pixel = step / 2; pixel < (row_end - row) * width; pixel += step) {
             const PositionSample sample{pixel % width + 0.5 + reader.window().x,

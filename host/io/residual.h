@@ -18,9 +18,9 @@ struct PositionSample {
     double depth = 0;     ///< of the depth role; NaN without one
 };
 
-/// Samples from about `rows` rows spread over the frame, without the background. Empty when the frame has no positions.
+/// Samples from a few rows spread over the frame, without the background. Empty when the frame has no positions.
 /// Where depth says that all of a frame is background and its normals do not, depth counts as wrong.
-std::vector<PositionSample> sample_positions(const GBufferReader& reader, std::uint32_t rows = 16);
+std::vector<PositionSample> sample_positions(const GBufferReader& reader);
 
 /// How far from their own pixels a camera projects the positions, in pixels. Positions behind the eye count as
 /// infinitely far away.

@@ -16,7 +16,6 @@ namespace {
 
 using Imath::V3d;
 
-constexpr std::uint32_t kBands = 8;      // of rows that are looked at, at most, each within a compressed block
 constexpr std::uint32_t kColumns = 256;  // pixels of a row, about
 constexpr std::uint32_t kLongest = 8;    // pixels between the corners of a quad: further than jitter and rounding reach
 constexpr std::size_t kFewest = 64;      // quads, to judge by
@@ -35,11 +34,6 @@ std::optional<V3d> spanned_normal(const V3d (&corner)[4], const V3d& to_viewer) 
     if (!(std::abs(first.dot(second)) > flat)) return std::nullopt;
     const V3d normal = direction(first.dot(second) > 0 ? first + second : first - second);
     return normal.dot(to_viewer) < 0 ? -normal : normal;
-}
-
-/// The row in the middle of one of so many equal bands.
-std::uint32_t middle_of(std::uint32_t band, std::uint32_t bands, std::uint32_t height) {
-    return static_cast<std::uint32_t>((2 * std::uint64_t{band} + 1) * height / (2 * std::uint64_t{bands}));
 }
 
 /// The planes of some rows, read once.
@@ -110,9 +104,7 @@ std::vector<Quad> sample_quads(const GBufferReader& reader, const Points& points
     else
         planes.emplace_back("depth");
     Rows rows(reader, planes);
-    const std::uint32_t bands = reader.blocks_at_a_glance(kBands);
-    for (std::uint32_t band = 0; band < bands; ++band) {
-        const std::uint32_t middle = middle_of(band, bands, height);
+    for (const std::uint32_t middle : reader.glance_rows()) {
         const std::uint32_t first = std::min(middle - middle % 16, height - rows_read);
         rows.read(first, rows_read);
         for (std::uint32_t x = 0; x + side < width; x += std::max(width / kColumns, 1u)) {
@@ -206,13 +198,12 @@ std::string normals_misfit(const GBufferReader& reader, const Camera& camera) {
 
 std::string depth_misfit(const GBufferReader& reader) {
     if (reader.has_role("position") || !reader.has_role("depth") || !reader.has_role("normal")) return {};
-    const auto [width, height] = reader.size();
+    const std::uint32_t width = reader.size().width;
     Rows rows(reader, {"normal.x", "normal.y", "normal.z", "depth"});
     std::size_t surface = 0, none = 0, negative = 0;
     bool normalised = true;
-    const std::uint32_t bands = reader.blocks_at_a_glance(kBands);
-    for (std::uint32_t band = 0; band < bands; ++band) {
-        rows.read(middle_of(band, bands, height), 1);
+    for (const std::uint32_t row : reader.glance_rows()) {
+        rows.read(row, 1);
         for (std::uint32_t x = 0; x < width; ++x) {
             const double depth = rows.number(3, x);
             normalised = normalised && depth >= 0 && depth <= 1;

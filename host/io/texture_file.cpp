@@ -14,6 +14,7 @@
 #include "io/texture_channels.h"
 #include "io/texture_texels.h"
 #include "io/udim.h"
+#include "io/webp_file.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -102,13 +103,8 @@ Picked pick(OIIO::ImageInput& input, const TextureUse& use) {
     return picked;
 }
 
-/// WebP's reader multiplies by alpha, in 8 bits, whatever it is asked for.
-void refuse_multiplied(const OIIO::ImageInput& input, const std::filesystem::path& file) {
-    if (std::string_view(input.format_name()) == "webp" && input.spec().alpha_channel >= 0)
-        throw Error(
-            fmt::format("{}: a WebP image with alpha, which is only read multiplied by it; save it without alpha, "
-                        "or as PNG",
-                        file.string()));
+bool is_webp_with_alpha(const OIIO::ImageInput& input) {
+    return std::string_view(input.format_name()) == "webp" && input.spec().alpha_channel >= 0;
 }
 
 /// The largest number that an integer format stores; 0 for floats.
@@ -129,7 +125,6 @@ TexelSource open_flat(const TextureUse& use) {
     OIIO::ImageInput& input = opened->input();
     const std::string name = use.file.string();
     if (input.spec().deep || input.spec().depth > 1) throw Error(fmt::format("{}: not a flat image", name));
-    refuse_multiplied(input, use.file);
     const Picked picked = pick(input, use);
     if (!input.seek_subimage(picked.part, 0)) fail_reading(use.file, input.geterror());
     const auto& stored = input.spec();
@@ -147,7 +142,8 @@ TexelSource open_flat(const TextureUse& use) {
         throw Error(
             fmt::format("{}: zero = {} is for integers of 8 or 16 bits, and less than their largest", name, use.zero));
     const auto read = [opened, picked, file = use.file, zero = centred ? use.zero : 0, largest](int channels) {
-        Image image = read_texels(opened->input(), picked, channels, file);
+        Image image = is_webp_with_alpha(opened->input()) ? io::read_webp(*opened->file(), channels)
+                                                          : read_texels(opened->input(), picked, channels, file);
         if (zero != 0) centre_on(zero, largest, image);
         return image;
     };

@@ -11,7 +11,7 @@ namespace wrinkle::io {
 
 UvDigits uv_digits(const GBufferReader& reader) {
     if (!reader.has_role("uv")) return UvDigits::enough;
-    const auto [width, height] = reader.size();
+    const std::uint32_t width = reader.size().width;
     const std::array<std::string, 2> planes{"uv.u", "uv.v"};
     std::vector<float> u(width), v(width);
     const std::array<float*, 2> out{u.data(), v.data()};
@@ -19,8 +19,7 @@ UvDigits uv_digits(const GBufferReader& reader) {
     const bool with_v = !reader.roles().v_down;
     // A ramp that a program made may hit halves by its steps alone, but then not with their last digit.
     std::size_t told = 0, halves = 0, last_digits = 0, bytes = 0;
-    for (const std::uint32_t tenth : {5u, 3u, 7u}) {
-        const std::uint32_t row = tenth * height / 10;
+    for (const std::uint32_t row : reader.glance_rows()) {
         reader.read_rows(row, row + 1, planes, out);
         const auto count = [&](float value) {
             if (!std::isfinite(value) || value == std::round(value)) return;  // these are whole in any format
