@@ -16,5 +16,6 @@ void add_scatter(CLI::App& app);
 void add_bake(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);
+void add_area(CLI::App& app);
 
 }  // namespace wrinkle::cli

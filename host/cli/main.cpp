@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
         "  wrinkle devices                             where it can run\n"
         "  wrinkle bake-volume golden -o golden.vdb    a volume to try things on\n"
         "  wrinkle bench --report out/bench            how fast and how wrong\n"
+        "  wrinkle area courtyard.toml                 what normals miss of each pixel's area, and what more points "
+        "cost\n"
         "  wrinkle tune data/scenes/*.toml             what max_error in a scene chooses by, measured here\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
@@ -62,6 +64,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_bake(app);
     wrinkle::cli::add_bench(app);
     wrinkle::cli::add_tune(app);
+    wrinkle::cli::add_area(app);
     wrinkle::cli::add_limit_options(app);
     try {
         app.parse(reversed_arguments(argc, argv));

@@ -1,44 +1,9 @@
-// What a pixel's area shows, by brute force: the references evaluate layers without any filter at 16 x 16 points of
-// every pixel, and the mean of those surface gradients, their covariance and their light is what a pass must give.
-#include "tests/run/area_frames.h"
+// What a pixel's area shows, by brute force: the mean of surface gradients, their covariance and their light at many
+// points is what a pass must give.
+#include "tests/run/area_truth.h"
 
 namespace wrinkle::test {
 namespace {
-
-constexpr std::uint32_t kPoints = 16;  // along each side of a pixel
-/// Of a pixel all of whose points lie on the surface.
-struct Area {
-    bool whole = true;
-    V gradient, lit;
-    double xx = 0, xy = 0, yy = 0;  ///< covariance along the image's axes on the surface
-};
-
-std::vector<Area> brute_force(Scene scene) {
-    for (Layer& layer : scene.layers) layer.footprint = false;
-    const HostFrame fine = ground({kSize.width * kPoints, kSize.height * kPoints});
-    const Truth truth(fine, scene);
-    std::vector<Area> areas(std::size_t{kSize.width} * kSize.height);
-    constexpr double share = 1.0 / (kPoints * kPoints);
-    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-        const std::size_t x = i % fine.frame.size.width / kPoints, y = i / fine.frame.size.width / kPoints;
-        Area& area = areas[y * kSize.width + x];
-        const auto& point = truth.pixels[i];
-        area.whole = area.whole && point.valid;
-        if (!point.valid) continue;
-        const V right = normalize(point.base.dp_dx), down = cross(right, point.base_normal), g = point.surface_gradient;
-        area.gradient = area.gradient + g * share;
-        area.xx += dot(g, right) * dot(g, right) * share, area.xy += dot(g, right) * dot(g, down) * share;
-        area.yy += dot(g, down) * dot(g, down) * share;
-        if (!truth.lit.empty()) area.lit = area.lit + truth.lit[i] * share;
-    }
-    for (Area& area : areas) {  // the ground's axes are those of its frame everywhere
-        area.xx -= area.gradient.x * area.gradient.x, area.yy -= area.gradient.y * area.gradient.y;
-        area.xy += area.gradient.x * area.gradient.y;
-    }
-    return areas;
-}
-
-V normal_of(V gradient) { return normalize(V{0, 0, 1} - gradient); }
 
 /// The angles between the normals of a run and those of the areas, and by how much the areas' tilt from the ground.
 Spread errors(const Pixels& got, const std::vector<Area>& areas) {

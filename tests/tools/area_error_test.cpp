@@ -1,0 +1,72 @@
+#include "tools/area_error.h"
+
+#include "tests/io/files.h"
+#include "tests/run/area_truth.h"
+
+namespace wrinkle::test {
+namespace {
+
+/// The ground of the brute-force tests, as a file.
+Scene on_ground(const TempFolder& folder, Layer layer) {
+    const HostFrame frame = ground(kSize);
+    const char* planes[] = {"normal.x", "normal.y", "normal.z", "depth"};
+    write_exr(
+        folder / "ground.exr", static_cast<int>(kSize.width), static_cast<int>(kSize.height),
+        {"N.X", "N.Y", "N.Z", "Z"}, [&](int c, int x, int y) {
+            return frame.pixels.at(planes[c])[static_cast<std::size_t>(y) * kSize.width + static_cast<std::size_t>(x)];
+        });
+    Scene scene = scene_of(std::move(layer));
+    scene.gbuffer.file = folder / "ground.exr";
+    scene.gbuffer.roles["depth"] = "Z";
+    scene.camera.inline_camera = frame.frame.camera;
+    return scene;
+}
+
+AreaOptions options() {
+    AreaOptions options;
+    options.taps = {1, 16};
+    options.sample = 150;
+    options.repeat = 1;
+    if (const char* device = std::getenv("WRINKLE_TEST_DEVICE")) options.device = device;
+    return options;
+}
+
+TEST(AreaError, IsWhatBruteForceSays) {
+    const TempFolder folder;
+    const Layer cobbled = layer_of(HeightMapLayer{{.file = cobbles}, planar}, 0.3);
+    const AreaErrors errors = measure_area(on_ground(folder, cobbled), options());
+
+    std::vector<double> tilts;
+    for (const Area& area : brute_force(scene_of(cobbled)))
+        if (area.whole) tilts.push_back(angle_degrees(normal_of(area.gradient), V{0, 0, 1}));
+    const double tilt = Spread(tilts).median;
+    EXPECT_NEAR(errors.unbumped.median, tilt, 0.25 * tilt) << "150 pixels, drawn, of " << tilts.size();
+    ASSERT_EQ(errors.taps.size(), 2u);
+    EXPECT_EQ(errors.unbumped.samples, 150u);
+    EXPECT_LT(errors.taps[1].degrees.median, 2);  // tests/run/area_test.cpp's bound
+    EXPECT_GT(errors.taps[0].degrees.median, 2 * errors.taps[1].degrees.median);
+    EXPECT_GT(errors.taps[0].ns, 0);
+}
+
+TEST(AreaError, IsNoneWhereNothingVaries) {
+    const TempFolder folder;
+    Scene scene = on_ground(folder, layer_of(ConstantLayer{.gradient = {0.3, -0.2, 0}}, 1));
+    AreaOptions few = options();
+    few.sample = 20;
+    const AreaErrors errors = measure_area(scene, few);
+    EXPECT_LT(errors.taps[1].degrees.max, 1e-4);
+    EXPECT_GT(errors.unbumped.median, 10);
+    const AreaErrors again = measure_area(scene, few);
+    EXPECT_EQ(again.unbumped.median, errors.unbumped.median) << "the same seed draws the same pixels";
+}
+
+TEST(AreaError, NeedsASurface) {
+    const TempFolder folder;
+    Scene scene = on_ground(folder, layer_of(ConstantLayer{.gradient = {0.3, -0.2, 0}}, 1));
+    write_exr(folder / "ground.exr", 24, 16, {"N.X", "N.Y", "N.Z", "Z"},
+              [](int c, int, int) { return c == 3 ? 1e10f : 0; });
+    expect_mentions(error_of([&] { measure_area(scene, options()); }), {"ground.exr", "none of"});
+}
+
+}  // namespace
+}  // namespace wrinkle::test
