@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
+#include "base/atomic_file.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::bench {
@@ -15,13 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_text(const fs::path& file, const std::string& text) {
-    const fs::path beside = fs::path(file) += ".part";
-    std::ofstream out(beside, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code failed;
-    if (out) fs::rename(beside, file, failed);
-    if (!out || failed) throw Error(fmt::format("cannot write {}", file.string()));
+    AtomicFile out(file);
+    out.write(text);
+    out.commit();
 }
 
 std::size_t not_finite(const Measurement& m) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 
 namespace wrinkle {
@@ -46,9 +47,11 @@ std::string error_of(const std::string& line) {
 
 std::string build_errors(const std::string& log) {
     std::istringstream lines(log);
+    std::set<std::string> told;  // PoCL repeats itself
     std::string errors;
     for (std::string line; std::getline(lines, line);)
-        if (const std::string error = error_of(line); !error.empty()) errors += (errors.empty() ? "" : "\n") + error;
+        if (const std::string error = error_of(line); !error.empty() && told.insert(error).second)
+            errors += (errors.empty() ? "" : "\n") + error;
     return errors.empty() ? log : errors;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
+
 namespace wrinkle::io {
 namespace {
 
@@ -96,13 +98,6 @@ VectorXd offsets(const SeenPoints& seen, const LensCamera& camera) {
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::vector<double> distances(const SeenPoints& seen, const ClipRows& clip) {
     std::vector<double> off;

@@ -23,7 +23,6 @@ using ClipRows = Eigen::Matrix<double, 3, 4>;
 
 /// How far from its pixel each point is projected, in pixels; infinite behind the eye.
 std::vector<double> distances(const SeenPoints& seen, const ClipRows& clip);
-double median(std::vector<double> values);
 
 /// The projection of 11 degrees of freedom that fits best, which points of one plane do not determine.
 ClipRows fit_projective(const SeenPoints& seen);

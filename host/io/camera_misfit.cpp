@@ -6,19 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "base/median.h"
 #include "io/camera_placing.h"
 #include "io/solve_camera.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
 namespace {
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 /// The key of the scene that would fit in the place of the one it has; empty: none.
 std::string other_axis(const CameraSource& source, Size display, double pixel_aspect,

@@ -6,22 +6,16 @@
 #include <limits>
 #include <numbers>
 
+#include "base/imath.h"
 #include "base/names.h"
 #include "io/camera_check.h"
 
 namespace wrinkle::io {
 namespace {
 
-Mat4 transposed(const Mat4& m) {
-    Mat4 t{};
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j) t[i][j] = m[j][i];
-    return t;
-}
-
 /// A matrix that acts on column vectors, as all of ours do. Those of EXR headers act on row vectors, but some writers
 /// store the transpose.
-Mat4 on_columns(const Mat4& m, bool row_vectors) { return row_vectors ? transposed(m) : m; }
+Mat4 on_columns(const Mat4& m, bool row_vectors) { return row_vectors ? to_array(to_imath(m).transposed()) : m; }
 
 /// A convention for normalised device coordinates.
 struct Window {

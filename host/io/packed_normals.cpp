@@ -4,16 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "base/median.h"
+
 namespace wrinkle::io {
-namespace {
-
-float median(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
     constexpr float rounding = 0.01f;  // allows for half floats and 8-bit sources

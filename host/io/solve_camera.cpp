@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/median.h"
 #include "io/camera_fit.h"
 #include "io/header_camera.h"
 #include "wrinkle/error.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/imath.h"
+#include "base/median.h"
 #include "io/background.h"
 
 namespace wrinkle::io {
@@ -133,9 +134,7 @@ double median_angle(const std::vector<Quad>& quads, const std::function<V3d(cons
     std::vector<double> angles;
     for (const Quad& quad : quads)
         angles.push_back(std::acos(std::clamp(direction(meant(quad.stored)).dot(quad.spanned), -1.0, 1.0)) * kDegrees);
-    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-    std::ranges::nth_element(angles, middle);
-    return *middle;
+    return median(std::move(angles));
 }
 
 /// A way in which normals may be meant that are not what they should be.

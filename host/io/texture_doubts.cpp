@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/median.h"
 #include "io/image_open.h"
 #include "io/udim.h"
 
@@ -16,12 +17,6 @@ namespace {
 
 constexpr std::size_t kMostTexels = std::size_t{1} << 14;  // that are looked at, spread evenly
 constexpr int kRows = 64;                                  // of a picture that may be in colour
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 /// The inverse of sRGB's curve.
 double linear(double stored) { return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4); }

@@ -2,15 +2,16 @@
 
 #include <cmath>
 
+#include "base/imath.h"
+
 namespace wrinkle {
 
 bool is_singular(const Mat4& m) {
-    const auto axis = [&](std::size_t k) { return std::hypot(m[0][k], m[1][k], m[2][k]); };
-    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    const auto axis = [&](std::size_t k) { return Imath::V3d(m[0][k], m[1][k], m[2][k]); };
+    const double determinant = axis(0).dot(axis(1).cross(axis(2)));
     constexpr double kFlat = 1e-9;  // share of the volume that the axes would span if they were perpendicular
-    return !(std::abs(determinant) > kFlat * axis(0) * axis(1) * axis(2)) || !std::isfinite(determinant);
+    return !(std::abs(determinant) > kFlat * axis(0).length() * axis(1).length() * axis(2).length()) ||
+           !std::isfinite(determinant);
 }
 
 std::optional<std::size_t> Volume::block(int x, int y, int z) const {

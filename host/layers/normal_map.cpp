@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/imath.h"
 #include "layers/common.h"
 #include "wrinkle/error.h"
 
@@ -47,16 +48,7 @@ bool vertex_frame(const LayerText& at, const NormalMapLayer& l) {
 }
 
 /// Unit axis along which a planar mapping projects.
-Vec3 plane_axis(const UvMapping& uv) {
-    Vec3 axis{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        axis[i] = uv.axis_u[j] * uv.axis_v[k] - uv.axis_u[k] * uv.axis_v[j];
-    }
-    const double length = std::hypot(axis[0], axis[1], axis[2]);
-    for (double& part : axis) part /= length;
-    return axis;
-}
+Vec3 plane_axis(const UvMapping& uv) { return to_array(direction(to_imath(uv.axis_u).cross(to_imath(uv.axis_v)))); }
 
 void read(scene::Table& table, Layer& layer) {
     auto bump = scene::held<NormalMapLayer>(layer);

@@ -4,14 +4,18 @@
 #include <span>
 
 #include "plan/geometry_text.h"
+#include "plan/planned_numbers.h"
 
 namespace wrinkle {
 
 namespace {
 
 /// Text that sets the number of points in each pixel's area.
-std::string count_text(const Emitter& emitter) {
-    return fmt::format("        taps.count = wr_tap_count(taps, {}, wanted);\n", emitter.scene.filter.taps);
+std::string count_text(Emitter& emitter) {
+    const std::size_t most = add_numbers(emitter, "taps of [filter]", [](const NumberSource& source) {
+        return std::vector{static_cast<double>(source.scene.filter.taps)};
+    });
+    return fmt::format("        taps.count = wr_tap_count(taps, (int)numbers[{}], wanted);\n", most);
 }
 
 /// Texts that part a pixel's area into shares, and set what layers see of the one that belongs to a point.
@@ -165,8 +169,9 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     if (uv) text += "        const wr_texcoord uv = share_uv;\n";
     text +=
         prepared +
-        fmt::format("#pragma nounroll\n        for (int tap = 0; tap < {}; ++tap) {{\n{}", emitter.scene.filter.taps,
-                    one ? kCentre : kPoint) +
+        (one ? "        for (int tap = 0; tap < 1; ++tap) {\n"
+             : "#pragma nounroll\n        for (int tap = 0;; ++tap) {\n") +
+        (one ? kCentre : kPoint) +
         fmt::format("            wr_vec3 g = before, dh_dp = before_space{};\n            const wr_mask valid = on;\n",
                     use.spread ? ", finer = wr_zero3()" : "");
     if (uv) text += one ? "            const wr_texcoord uv = share_uv;\n" : kPointUv;

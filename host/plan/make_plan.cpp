@@ -13,11 +13,7 @@ namespace {
 std::string user_text(const Emitter& emitter) {
     std::string text;
     for (const auto& [function, parameters] : emitter.user_parameters) text += parameters + "\n";
-    for (const auto& [file, content] : emitter.user_files) {
-        std::string name;
-        for (const char c : file) name += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-        text += fmt::format("#line 1 \"{}\"\n{}\n#line 1 \"evaluate.cl\"\n", name, content);
-    }
+    for (const auto& [file, content] : emitter.user_files) text += content;
     return text;
 }
 

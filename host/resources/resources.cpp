@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/imath.h"
 #include "io/cryptomatte.h"
 #include "io/object_ids.h"
 #include "resources/frame_constants.h"
@@ -35,10 +36,7 @@ void check_numbers(const char* name, std::span<const double> numbers) {
 }
 
 void check_axes(const Projector& row) {
-    const auto length = [](const Vec3& v) { return std::hypot(v[0], v[1], v[2]); };
-    const Vec3 &x = row.axis_x, &y = row.axis_y;
-    const Vec3 across{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-    if (!(length(across) > 1e-6 * length(x) * length(y)))
+    if (parallel(to_imath(row.axis_x), to_imath(row.axis_y)))
         throw Error("projector: axis_x and axis_y are zero or parallel; expected two directions to project along");
 }
 

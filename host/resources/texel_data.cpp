@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/only_errors.h"
 #include "io/texture_texels.h"
 #include "io/volume_file.h"
 #include "resources/volume_heap.h"
@@ -84,17 +85,19 @@ Mat4 add(TextureHeap& heap, const VolumeSource& source) {
 }  // namespace
 
 TexelData texel_data(std::span<const TextureSource> sources) {
-    TextureHeap heap;
-    std::vector<Mat4> index_from_world;
-    for (const TextureSource& source : sources) {
-        try {
-            index_from_world.push_back(std::visit([&](const auto& each) { return add(heap, each); }, source));
-        } catch (const Error& error) {
-            throw Error(fmt::format("texture source {}: {}", index_from_world.size(), error.what()));
+    return only_errors("texel data", [&] {
+        TextureHeap heap;
+        std::vector<Mat4> index_from_world;
+        for (const TextureSource& source : sources) {
+            try {
+                index_from_world.push_back(std::visit([&](const auto& each) { return add(heap, each); }, source));
+            } catch (const Error& error) {
+                throw Error(fmt::format("texture source {}: {}", index_from_world.size(), error.what()));
+            }
         }
-    }
-    heap.texels.resize(heap.texels.size() + kTexelsAfterTheLast);
-    return {std::move(heap.texels), std::move(heap.table), std::move(index_from_world)};
+        heap.texels.resize(heap.texels.size() + kTexelsAfterTheLast);
+        return TexelData{std::move(heap.texels), std::move(heap.table), std::move(index_from_world)};
+    });
 }
 
 }  // namespace wrinkle

@@ -166,6 +166,28 @@ void expect_mentions(const std::string& text, const std::vector<std::string>& pa
     for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }
 
+TEST(Parameters, ChangeTheNumberOfPointsOfAnArea) {
+    const HostFrame frame = small_frame();
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].name = "grain";
+    scene.layers[0].bump = NoiseLayer{.frequency = 3, .octaves = 3};
+    scene.layers[0].scale = 0.1;
+    Pass pass = evaluate(device(), scene, frame.frame);
+    const Pixels of_16 = run(pass, frame);
+    bool differs = false;
+    for (const int taps : {2, 5, 64, 16}) {
+        scene.filter.taps = taps;
+        pass.set_parameters(scene);
+        const Pixels changed = run(pass, frame);
+        Pass fresh = evaluate(device(), scene, frame.frame);
+        EXPECT_NE(fresh.impl().built.source, BuildSource::compiled) << taps;
+        expect_same_bits(changed, run(fresh, frame), fmt::format("{} taps", taps));
+        differs = differs || changed.at("normal.x") != of_16.at("normal.x");
+    }
+    EXPECT_TRUE(differs) << "no pixel of the frame is long enough to tell";
+}
+
 TEST(Parameters, StayWithinTheStructure) {
     const HostFrame frame = small_frame();
     Scene scene;
@@ -199,6 +221,8 @@ TEST(Parameters, StayWithinTheStructure) {
         },
         {"\"relight\" in [lighting] is lit where the pass is made for off"});
     expect_refused([](Scene& s) { s.output.dp_dx = true; }, {"\"dp_dx\" in [output]"});
+    expect_refused([](Scene& s) { s.filter.taps = 2; },
+                   {"\"taps\" in [filter] is several where the pass is made for 1"});
     expect_refused([&](Scene& s) { noise(s).frequency = -1; }, {"\"frequency\" in layer \"grain\" must be"});
     expect_same_bits(run(pass, frame), before, "after refusals");
 
