@@ -175,6 +175,12 @@ def source_of(socket):
     return None
 
 
+def output_of(socket):
+    """The output that feeds a linked socket, through reroutes."""
+    link = socket.links[0]
+    return link.from_socket if link.from_node.type != "REROUTE" else output_of(link.from_node.inputs[0])
+
+
 class Unknown(Exception):
     """A node that has no counterpart in wrinkle."""
 
@@ -185,7 +191,13 @@ def number_of(socket, what):
     return socket.default_value
 
 
-def mapping_of(image_node):
+def require_rendered_uv(name, rendered):
+    """The UV pass has one map of each mesh, the one that is rendered."""
+    if name and any(name != other for other in rendered):
+        raise Unknown("the UV map %r, which is not the one that is rendered" % name)
+
+
+def mapping_of(image_node, rendered):
     """The uv table of an image's coordinates."""
     node, parts = source_of(image_node.inputs["Vector"]), []
     if node is not None and node.type == "MAPPING":
@@ -205,6 +217,8 @@ def mapping_of(image_node):
         node = source_of(node.inputs["Vector"])
     if node is not None and node.type not in ("TEX_COORD", "UVMAP"):
         raise Unknown("coordinates of %s" % node.name)
+    if node is not None and node.type == "UVMAP":
+        require_rendered_uv(node.uv_map, rendered)
     if node is not None and node.type == "TEX_COORD":
         used = [link.from_socket.name for output in node.outputs for link in output.links]
         if any(name != "UV" for name in used):
@@ -218,6 +232,15 @@ def image_of(socket, what):
         raise Unknown("%s is no image%s" % (what, "" if node is None else " but " + node.name))
     if node.image.source == "TILED":
         raise Unknown("an image of UDIM tiles")
+    if output_of(socket).name != "Color":
+        raise Unknown("%s is the %s of an image" % (what, output_of(socket).name.lower()))
+    if node.projection != "FLAT":
+        raise Unknown("an image projected as a %s" % node.projection.lower())
+    if node.extension not in ("REPEAT", "EXTEND"):
+        raise Unknown("an image continued by %s" % node.extension.lower())
+    space = node.image.colorspace_settings
+    if not space.is_data and not space.name.startswith("Linear"):
+        raise Unknown("an image in the colour space %s; set it to Non-Color" % space.name)
     return node
 
 
@@ -234,8 +257,8 @@ def image_path(image, folder):
     return name
 
 
-def layer_of(node, folder):
-    """The lines of a [[layer]] that bump as this node does."""
+def layer_of(node, folder, rendered):
+    """The lines of a [[layer]] that bump as this node does; `rendered` names the UV maps of the meshes that have it."""
     if node.type == "BUMP":
         image = image_of(node.inputs["Height"], "the height")
         strength = number_of(node.inputs["Strength"], "the strength")
@@ -245,6 +268,7 @@ def layer_of(node, folder):
     else:
         if node.space != "TANGENT":
             raise Unknown("normals of the space %s" % node.space)
+        require_rendered_uv(node.uv_map, rendered)
         image = image_of(node.inputs["Color"], "the colour")
         scale, kind = number_of(node.inputs["Strength"], "the strength"), "normal_map"
     if abs(scale) < 1e-9:
@@ -252,7 +276,7 @@ def layer_of(node, folder):
     lines = ['kind = "%s"' % kind, "texture = " + quoted(image_path(image.image, folder)), "scale = %.6g" % abs(scale)]
     if scale < 0:
         lines.append('blend = "subtract"')
-    uv = mapping_of(image)
+    uv = mapping_of(image, rendered)
     if uv:
         lines.append("uv = " + uv)
     if image.extension != "REPEAT":
@@ -285,11 +309,13 @@ def translate_bumps(scene, folder, keep_bumps):
     for item in scene.objects:
         if item.type not in ("MESH", "CURVE", "SURFACE", "META", "FONT") or item.hide_render:
             continue
+        maps = item.data.uv_layers if item.type == "MESH" else []
+        rendered = [layer.name for layer in maps if layer.active_render]
         for material in {slot.material.name: slot.material for slot in item.material_slots if slot.material}.values():
             for node in bumps_of(material):
                 where = "%s, %s, %s" % (item.name, material.name, node.name)
                 try:
-                    lines = layer_of(node, folder)
+                    lines = layer_of(node, folder, rendered)
                 except Unknown as reason:
                     untranslated.append("%s: %s" % (where, reason))
                     continue

@@ -84,6 +84,7 @@ void print_text(const GBufferInfo& info, const std::vector<std::string>& of_scen
                    kind == DepthKind::ray ? "the distance along the ray" : "planar (along the view axis)",
                    measured ? "measured against the positions" : "by the writer");
     }
+    if (!info.cryptomatte_problem.empty()) fmt::print("  {}\n", info.cryptomatte_problem);
     if (!info.cryptomatte_names.empty()) fmt::print("  Cryptomatte names: {}\n", join(info.cryptomatte_names));
     if (!info.light_pictures.empty()) fmt::print("  pictures of lights: {}\n", join(info.light_pictures));
 

@@ -117,6 +117,17 @@ void check_depth(const GBufferReader& reader, std::span<const PositionSample> sa
                     reader.roles().channel_of.find("depth")->second, 100 * off));
 }
 
+/// A camera may fit most of a frame, a plane for one, and not the rest.
+void doubt_outliers(FrameCamera& result) {
+    constexpr double far = 2, times = 10;  // pixels; medians
+    const Residual& residual = *result.residual;
+    if (!(residual.p99 > std::max(far, times * residual.median))) return;
+    result.doubts.push_back(fmt::format(
+        "the camera fits half of the positions within {:.2g} pixels, but 1% of them are {:.3g} pixels or more "
+        "from where it sees them: averages at edges, something that moves, or pixels that are not square",
+        residual.median, residual.p99));
+}
+
 }  // namespace
 
 FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& reader, int frame) {
@@ -128,6 +139,7 @@ FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& r
         result.residual = reprojection_residual(result.camera, display, samples);
         result.depth = measure_depth_kind(result.camera, samples);
         fits = result.residual->median <= source.max_residual;
+        if (fits) doubt_outliers(result);
         if (fits)
             check_depth(reader, samples, result);
         else

@@ -65,11 +65,11 @@ void assign(RoleMap& map, const Role& role, const std::vector<std::string>& chan
     for (std::size_t i = 0; i < channels.size(); ++i) map.channel_of[role.planes[i]] = channels[i];
 }
 
-/// A view layer, and how many roles it has.
+/// A view layer, and how many roles it has, with those that no layer has.
 struct ViewLayer {
     std::string prefix;
     std::size_t roles = 0;
-    bool normal = false;
+    bool normal = false;  ///< of its own
 };
 
 std::vector<ViewLayer> view_layers(const ChannelIndex& index) {
@@ -79,9 +79,12 @@ std::vector<ViewLayer> view_layers(const ChannelIndex& index) {
         ViewLayer view{split_prefix(layer).first};
         if (!seen.insert(view.prefix).second) continue;
         for (const auto& role : gbuffer_roles()) {
-            if (role.name == "cryptomatte" || find_role(index, role, view.prefix).empty()) continue;
+            if (role.name == "cryptomatte") continue;
+            const std::vector<std::string> channels = find_role(index, role, view.prefix);
+            if (channels.empty()) continue;
             ++view.roles;
-            view.normal = view.normal || role.name == "normal";
+            const std::string from = split_prefix(io::split_channel(channels.front()).layer).first;
+            view.normal = view.normal || (role.name == "normal" && from == view.prefix);
         }
         found.push_back(std::move(view));
     }
@@ -106,9 +109,16 @@ std::string choose_prefix(const ChannelIndex& index, const GBufferSource& source
     const auto rival = std::ranges::find_if(best + 1, found.end(), [&](const ViewLayer& view) {
         return view.roles == best->roles && view.normal && best->normal;
     });
-    if (rival != found.end() && !best->prefix.empty() && !rival->prefix.empty() && !source.roles.contains("normal"))
+    if (rival != found.end() && !source.roles.contains("normal")) {
+        const std::string &first = best->prefix, &second = rival->prefix;
+        if (first.empty() || second.empty())
+            throw Error(
+                fmt::format("the layer {0} has the same passes as those without a layer; say which, as in [gbuffer] "
+                            "layer = {0}, or roles = {{ normal = ... }} with the names of the others",
+                            quote(first + second)));
         throw Error(fmt::format("the view layers {} and {} have the same passes; say which, as in [gbuffer] layer = {}",
-                                quote(best->prefix), quote(rival->prefix), quote(best->prefix)));
+                                quote(first), quote(second), quote(first)));
+    }
     return best->roles == 0 ? "" : best->prefix;
 }
 
@@ -132,11 +142,16 @@ void fill_mitsuba(RoleMap& map, const ChannelIndex& index) {
     take(ray, "depth"), take(uv, "uv"), take(object, "object");
 }
 
-void assign_cryptomatte(RoleMap& map, const io::CryptomatteLayers& found, const std::string& prefix) {
+void assign_cryptomatte(RoleMap& map, const ChannelIndex& index, const io::CryptomatteLayers& found,
+                        const std::string& prefix) {
     int best = -1;
     for (const auto& [stem, ranks] : found) {
         const auto [layer_prefix, base] = split_prefix(stem);
-        if (layer_prefix != prefix && !layer_prefix.empty()) continue;
+        // What stands before a dot is a view layer if other passes have it; else the Cryptomatte is called so.
+        const bool of_view = std::ranges::any_of(index.layers, [&, &first = layer_prefix, &own = stem](const auto& l) {
+            return split_prefix(l).first == first && !l.starts_with(own);
+        });
+        if (layer_prefix != prefix && !layer_prefix.empty() && of_view) continue;
         const int score = contains_ignoring_case(base, "object") ? 2 : contains_ignoring_case(base, "asset");
         if (score > best) best = score, io::assign_ranks(map, stem, ranks);
     }
@@ -192,6 +207,8 @@ HeaderHints header_hints(const Metadata& header) {
         if (name.starts_with("cryptomatte/") && name.ends_with("/name"))
             hints.cryptomattes.push_back(header.text(name).value_or(""));
         hints.vray = hints.vray || name.starts_with("vrayInfo");
+        hints.mitsuba =
+            hints.mitsuba || (name == "generatedBy" && header.text(name).value_or("").starts_with("Mitsuba"));
     }
     return hints;
 }
@@ -199,14 +216,14 @@ HeaderHints header_hints(const Metadata& header) {
 RoleMap detect_roles(std::span<const std::string> channels, const GBufferSource& source, const HeaderHints& hints) {
     const ChannelIndex index(channels);
     RoleMap map;
-    map.writer = hints.vray ? Writer::vray : io::recognise_writer(channels);
+    map.writer = hints.vray ? Writer::vray : hints.mitsuba ? Writer::mitsuba : io::recognise_writer(channels);
     const auto prefix = choose_prefix(index, source);
     for (const auto& role : gbuffer_roles()) {
         if (role.name != "cryptomatte") assign(map, role, find_role(index, role, prefix));
     }
     if (map.writer == Writer::mitsuba) fill_mitsuba(map, index);
     const auto cryptomattes = io::find_cryptomattes(index, hints.cryptomattes);
-    assign_cryptomatte(map, cryptomattes, prefix);
+    assign_cryptomatte(map, index, cryptomattes, prefix);
     io::apply_overrides(map, index, cryptomattes, source.roles);
     // What kind of depth and normals there are depends on the channels in use, so it is settled after the overrides.
     if (const auto depth = map.channel_of.find("depth"); depth != map.channel_of.end()) {

@@ -36,6 +36,7 @@ struct RoleMap {
 struct HeaderHints {
     std::vector<std::string> cryptomattes{};  ///< names of layers, from cryptomatte/KEY/name
     bool vray = false;                        ///< it has attributes of V-Ray
+    bool mitsuba = false;                     ///< it says that Mitsuba wrote it
 };
 HeaderHints header_hints(const Metadata& header);
 

@@ -107,11 +107,13 @@ ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file
         }
         const std::string part_name = spec.get_string_attribute("oiio:subimagename");
         const auto layer = specs.size() > 1 ? views.without_view(p, part_name) : "";
+        bool of_view = spec.nchannels == 0;
         for (int i = 0; i < spec.nchannels; ++i) {
             const auto format = spec.channelformat(i);
             const auto& stored_name = spec.channelnames[static_cast<std::size_t>(i)];
             auto name = stored_name;
             if (!views.take(p, name)) continue;
+            of_view = true;
             if (result.channels.empty()) {
                 display = {static_cast<std::uint32_t>(spec.full_width), static_cast<std::uint32_t>(spec.full_height)};
                 right = spec.full_width, bottom = spec.full_height;
@@ -128,7 +130,8 @@ ImageParts list_parts(OIIO::ImageInput& input, const std::filesystem::path& file
             result.channels.push_back({name, stored_name, part, i, format == OIIO::TypeUInt32, format == OIIO::TypeHalf,
                                        lossy_compression(spec)});
         }
-        add_attributes(result.metadata.data().list, spec.extra_attribs);
+        // The other eye's part has a camera and a manifest of its own.
+        if (of_view) add_attributes(result.metadata.data().list, spec.extra_attribs);
     }
     if (result.channels.empty()) {
         throw Error(fmt::format(

@@ -115,6 +115,9 @@ GBufferInfo gather_info(const GBufferSource& source, const std::optional<CameraS
     info.objects = reader.object_storage();
     info.stats = measure(reader, info.measured);
     info.cryptomatte_names = reader.cryptomatte().names();
+    try {
+        if (const std::string id = "crypto.id0"; reader.has_plane(id)) reader.require({&id, 1});
+    } catch (const Error& error) { info.cryptomatte_problem = error.what(); }
     info.light_pictures = io::light_pictures(info.channels);
     const CameraSource wanted = camera.value_or(CameraSource{});
     try {

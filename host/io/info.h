@@ -41,6 +41,7 @@ struct GBufferInfo {
     std::optional<FrameCamera> camera;
     std::string camera_problem;  ///< why there is no camera, or why it is refused
     std::vector<std::string> cryptomatte_names;
+    std::string cryptomatte_problem;          ///< why its ids cannot be read
     std::vector<std::string> light_pictures;  ///< layers that show one light or a group of them, by their names
 
     std::uint64_t pixels() const { return std::uint64_t{size.width} * size.height; }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 
 namespace wrinkle::io {
@@ -51,12 +52,17 @@ double object_number(float label) {
 bool is_mixed_object(float stored) { return std::isfinite(stored) && !is_whole(rounded(stored)); }
 
 ObjectStorage object_storage(std::span<const float> sample) {
-    constexpr std::size_t few = 16, repeats = 20;
+    constexpr std::size_t few = 16, repeats = 20, often = 8;
+    constexpr float least = 1e-3f, most = 4.3e9f;  // numbers of objects lie between; bits of 32 seldom do
     std::size_t shown = 0, mixed = 0;
     std::set<float> different;
+    std::map<float, std::size_t> outside;
     for (const float value : sample) {
         if (!std::isfinite(value) || value == 0) continue;
         if (!std::isnormal(value)) return ObjectStorage::bits;
+        // Filters leave such shares of a number too, but no two of them alike.
+        if ((std::abs(value) < least || std::abs(value) > most) && ++outside[value] == often)
+            return ObjectStorage::bits;
         ++shown;
         if (!is_mixed_object(value)) continue;
         ++mixed;

@@ -1,13 +1,39 @@
 #include "io/packed_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "base/median.h"
 
 namespace wrinkle::io {
-namespace {}  // namespace
+
+namespace {
+
+using Texel = std::array<float, 3>;
+
+float length(const Texel& n) { return std::hypot(n[0], n[1], n[2]); }
+Texel unpacked(const Texel& n) { return {2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1}; }
+
+/// The vectors, but for holes, and for the one of a background that may fill most of the picture.
+std::vector<Texel> of_surfaces(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+    std::vector<Texel> all;
+    std::map<Texel, std::size_t> times;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const Texel n{x[i], y[i], z[i]};
+        if (n == Texel{} || !std::isfinite(n[0] + n[1] + n[2])) continue;
+        all.push_back(n);
+        ++times[n];
+    }
+    const auto most = std::ranges::max_element(times, {}, &std::pair<const Texel, std::size_t>::second);
+    if (most == times.end() || most->second == all.size()) return all;
+    std::erase(all, Texel(most->first));
+    return all;
+}
+
+}  // namespace
 
 bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
     constexpr float rounding = 0.01f;  // allows for half floats and 8-bit sources
@@ -20,15 +46,10 @@ bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::s
 bool looks_packed(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
     if (cannot_be_packed(x, y, z)) return false;
     constexpr float unit_length = 0.03f;  // allows for filtering, which shortens normals a little
-    std::vector<float> raw, unpacked;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const float n[3] = {x[i], y[i], z[i]};
-        if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
-        if (!std::isfinite(n[0] + n[1] + n[2])) continue;
-        raw.push_back(std::abs(std::hypot(n[0], n[1], n[2]) - 1));
-        unpacked.push_back(std::abs(std::hypot(2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1) - 1));
-    }
-    return !raw.empty() && median(unpacked) < unit_length && median(raw) > unit_length;
+    std::vector<float> raw, decoded;
+    for (const Texel& n : of_surfaces(x, y, z))
+        raw.push_back(std::abs(length(n) - 1)), decoded.push_back(std::abs(length(unpacked(n)) - 1));
+    return !raw.empty() && median(decoded) < unit_length && median(raw) > unit_length;
 }
 
 void turn_normals(const Mat4& view, std::span<float> x, std::span<float> y, std::span<float> z) {
@@ -42,9 +63,11 @@ void turn_normals(const Mat4& view, std::span<float> x, std::span<float> y, std:
 }
 
 void unpack_normals(std::span<float> x, std::span<float> y, std::span<float> z) {
+    constexpr float shortest = 0.125f, longest = 1.25f;  // what filtering leaves of a normal
     for (std::size_t i = 0; i < x.size(); ++i) {
-        if (x[i] == 0 && y[i] == 0 && z[i] == 0) continue;
-        x[i] = 2 * x[i] - 1, y[i] = 2 * y[i] - 1, z[i] = 2 * z[i] - 1;
+        const Texel n = unpacked({x[i], y[i], z[i]});
+        const bool none = length(n) < shortest || length(n) > longest;
+        x[i] = none ? 0 : n[0], y[i] = none ? 0 : n[1], z[i] = none ? 0 : n[2];
     }
 }
 

@@ -17,7 +17,7 @@ bool cannot_be_packed(std::span<const float> x, std::span<const float> y, std::s
 /// Turns vectors of camera space into world space, in place.
 void turn_normals(const Mat4& view, std::span<float> x, std::span<float> y, std::span<float> z);
 
-/// n = 2 c - 1, in place. (0, 0, 0) stays as it is: it is the background, as no unit normal is stored so.
+/// n = 2 c - 1, in place. What no normal is stored as becomes (0, 0, 0), the background: black, grey, white.
 void unpack_normals(std::span<float> x, std::span<float> y, std::span<float> z);
 
 }  // namespace wrinkle::io

@@ -69,12 +69,26 @@ class Points {
 public:
     Points(const Camera& camera, Size size, bool positions, bool ray)
         : rays_(pinhole_rays(camera, size)), positions_(positions), ray_(ray) {
-        if (!rays_) return;
-        eye_ = to_imath(rays_->eye), d0_ = to_imath(rays_->d0);
-        dx_ = to_imath(rays_->dx), dy_ = to_imath(rays_->dy);
+        if (rays_) {
+            eye_ = to_imath(rays_->eye), d0_ = to_imath(rays_->d0);
+            dx_ = to_imath(rays_->dx), dy_ = to_imath(rays_->dy);
+            return;
+        }
+        // A parallel camera: pixels are places, and all look along one direction.
+        const auto& w = camera.proj[3];
+        parallel_ = w[0] == 0 && w[1] == 0 && w[2] == 0;
+        if (!parallel_) return;
+        const Imath::M44d to_world = to_imath(inverse(camera.view)), to_view = to_imath(inverse(camera.proj));
+        const auto seen_at = [&](double x, double y) {
+            V3d at = V3d(2 * x / size.width - 1, 1 - 2 * y / size.height, 0) * to_view;
+            at.z = 0;
+            return at * to_world;
+        };
+        d0_ = seen_at(0, 0), dx_ = seen_at(1, 0) - d0_, dy_ = seen_at(0, 1) - d0_;
+        to_world.multDirMatrix(V3d(0, 0, 1), backwards_);
     }
-    bool possible() const { return rays_.has_value(); }
-    const V3d& eye() const { return eye_; }
+    bool possible() const { return rays_ || parallel_; }
+    V3d to_viewer(const V3d& from) const { return rays_ ? direction(eye_ - from) : backwards_; }
 
     std::optional<V3d> at(const Rows& rows, std::size_t pixel, double x, double y) const {
         constexpr std::size_t geometry = 3;  // planes after the normal's
@@ -85,13 +99,13 @@ public:
         const double depth = rows.number(geometry, pixel);
         if (!(depth > 0 && depth < kBackgroundDepth)) return std::nullopt;
         const V3d ray = d0_ + x * dx_ + y * dy_;
-        return eye_ + depth * (ray_ ? direction(ray) : ray);
+        return parallel_ ? ray - depth * backwards_ : eye_ + depth * (ray_ ? direction(ray) : ray);
     }
 
 private:
     std::optional<PinholeRays> rays_;
-    V3d eye_{0}, d0_{0}, dx_{0}, dy_{0};
-    bool positions_, ray_;
+    V3d eye_{0}, d0_{0}, dx_{0}, dy_{0}, backwards_{0};
+    bool positions_, ray_, parallel_ = false;
 };
 
 std::vector<Quad> sample_quads(const GBufferReader& reader, const Points& points, bool positions) {
@@ -119,12 +133,12 @@ std::vector<Quad> sample_quads(const GBufferReader& reader, const Points& points
                 whole = point && is_finite(normal) && normal != V3d(0);
                 if (!whole) break;
                 corner[k] = *point;
-                stored += direction(normal);
+                stored += normal;
             }
             if (!whole) continue;
-            const V3d to_viewer = direction(points.eye() - corner[0]);
+            const V3d to_viewer = points.to_viewer(corner[0]);
             if (const auto spanned = spanned_normal(corner, to_viewer))
-                quads.push_back({direction(stored), *spanned, to_viewer});
+                quads.push_back({stored / 4, *spanned, to_viewer});
         }
     }
     return quads;
@@ -159,6 +173,9 @@ std::vector<Meaning> meanings(const Camera& camera) {
         {[](const V3d& n) { return V3d(n.x, -n.z, n.y); }, "they fit with y up, where the geometry has z up: turn one"},
         {[](const V3d& n) { return V3d(n.x, n.z, -n.y); }, "they fit with z up, where the geometry has y up: turn one"},
         {[](const V3d& n) { return -n; }, "they fit turned inside out: negate them"},
+        {[](const V3d& n) { return 2.0 * n - V3d(1); }, "they fit as (n + 1) / 2: [gbuffer] normals = \"packed\""},
+        {[turned](const V3d& n) { return turned(2.0 * n - V3d(1)); },
+         "they fit as (n + 1) / 2 in camera space: unpack them, and say normals = \"camera\""},
     };
 }
 

@@ -97,9 +97,23 @@ bool is_in_colour(const std::filesystem::path& file) {
     return 10 * coloured > texels.size() / 3;
 }
 
+/// The tile that is missing between others, whose place is flat.
+std::string doubt_of_tiles(const std::filesystem::path& pattern) {
+    const std::vector<UdimTile> tiles = udim_tiles(pattern);
+    const UdimSpan span = udim_span(tiles);
+    for (int row = 0; row < span.rows; ++row)
+        for (int column = 0; column < span.columns; ++column)
+            if (std::ranges::none_of(tiles, [&](const UdimTile& t) { return t.column == column && t.row == row; }))
+                return fmt::format("{}: there is no tile {} among its {}: its place is flat, at height 0",
+                                   pattern.string(), 1001 + column + 10 * row, tiles.size());
+    return {};
+}
+
 }  // namespace
 
 std::string texture_doubt(const TextureUse& use, const Image& image) {
+    if (is_udim(use.file))
+        if (std::string doubt = doubt_of_tiles(use.file); !doubt.empty()) return doubt;
     if (use.content == Content::normal || use.content == Content::object_normal) return doubt_of_normals(use, image);
     if (use.content != Content::height) return {};
     if (!is_in_colour(is_udim(use.file) ? udim_tiles(use.file).front().file : use.file)) return {};

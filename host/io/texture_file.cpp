@@ -124,7 +124,9 @@ TexelSource open_flat(const TextureUse& use) {
     const auto opened = std::make_shared<const io::OpenImage>(use.file, options);
     OIIO::ImageInput& input = opened->input();
     const std::string name = use.file.string();
-    if (input.spec().deep || input.spec().depth > 1) throw Error(fmt::format("{}: not a flat image", name));
+    if (input.spec().deep)
+        throw Error(fmt::format("{}: a deep image, with several samples a pixel; flatten it first", name));
+    if (input.spec().depth > 1) throw Error(fmt::format("{}: a volume, not a picture", name));
     const Picked picked = pick(input, use);
     if (!input.seek_subimage(picked.part, 0)) fail_reading(use.file, input.geterror());
     const auto& stored = input.spec();
@@ -136,11 +138,19 @@ TexelSource open_flat(const TextureUse& use) {
         spec.channelnames.push_back(stored.channelnames[static_cast<std::size_t>(picked.channels[i])]);
         if (picked.channels[i] == stored.alpha_channel) spec.alpha_channel = static_cast<int>(i);
     }
+    if (spec.format == OIIO::TypeUInt32)
+        throw Error(
+            fmt::format("{}: channel \"{}\" holds 32-bit integers, which have no scale as heights or normals; "
+                        "save it as floats, or in 8 or 16 bits",
+                        name, spec.channelnames.front()));
+    // Two channels of a TGA are grey and alpha, which its reader does not say.
+    if (std::string_view(input.format_name()) == "targa" && spec.nchannels == 2) spec.alpha_channel = 1;
     const float largest = largest_stored(spec.format);
     const bool centred = use.zero != 0 && use.content != Content::height;
-    if (centred && !(static_cast<float>(use.zero) < largest))
-        throw Error(
-            fmt::format("{}: zero = {} is for integers of 8 or 16 bits, and less than their largest", name, use.zero));
+    const auto zero = static_cast<float>(use.zero);
+    if (centred && !(zero < largest && zero > largest / 4))
+        throw Error(fmt::format("{}: zero = {} is for integers of 8 or 16 bits, and near the middle of theirs{}", name,
+                                use.zero, largest > 255 ? ": 32767 or 32768 for 16 bits" : ""));
     const auto read = [opened, picked, file = use.file, zero = centred ? use.zero : 0, largest](int channels) {
         Image image = is_webp_with_alpha(opened->input()) ? io::read_webp(*opened->file(), channels)
                                                           : read_texels(opened->input(), picked, channels, file);

@@ -51,6 +51,7 @@ std::vector<Readiness> readiness(const GBufferInfo& info) {
     uses.push_back({"relight = \"ratio\"", need(base, info, {"beauty"}), lighting.defaults});
     uses.push_back({"mask by object", need(base, info, {"object"}), {}});
     uses.push_back({"mask by cryptomatte", need(base, info, {"cryptomatte"}), {}});
+    if (!info.cryptomatte_problem.empty()) uses.back().missing.emplace_back("whole ids of 32 bits");
     return uses;
 }
 

@@ -199,6 +199,22 @@ TEST(Roles, TwoViewLayersWithTheSamePassesAreAskedFor) {
     expect_channels(detect_roles(names, with_roles({{"normal", "Set.Normal"}})), {{"normal.x", "Set.Normal.X"}});
 }
 
+TEST(Roles, ALayerWithThePassesOfTheBareOnesIsAskedFor) {
+    const auto names = layers({{"N", "XYZ"}, {"P", "XYZ"}, {"B.N", "XYZ"}, {"B.P", "XYZ"}});
+    expect_mentions(error_of([&] { detect_roles(names); }), {"\"B\" has the same passes as those without a layer"});
+    GBufferSource source;
+    source.layer = "B";
+    expect_channels(detect_roles(names, source), {{"normal.x", "B.N.X"}, {"position.z", "B.P.Z"}});
+    expect_channels(detect_roles(layers({{"", "RGB"}, {"B.N", "XYZ"}, {"B.P", "XYZ"}})), {{"normal.x", "B.N.X"}});
+}
+
+TEST(Roles, ADotInACryptomattesNameIsNoViewLayer) {
+    const auto names = layers({{"N", "XYZ"}, {"my.id00", "RGBA"}, {"my.id01", "RGBA"}});
+    Metadata header;
+    header.set("cryptomatte/1234567/name", "my.id");
+    EXPECT_EQ(detect_roles(names, {}, header_hints(header)).cryptomatte_layer, "my.id");
+}
+
 TEST(Roles, CryptomattesByTheHeadersNamesInWhateverOrder) {
     const auto names = layers({{"Z", "R"}, {"ids02", "RGBA"}, {"ids00", "RGBA"}, {"ids01", "RGBA"}, {"ids04", "RGBA"}});
     EXPECT_FALSE(detect_roles(names).has_role("cryptomatte"));
@@ -218,6 +234,11 @@ TEST(Roles, MitsubasTextureCoordinatesGrowDownwards) {
     GBufferSource source;
     source.v = VDirection::up;
     EXPECT_FALSE(detect_roles(names, source).v_down);
+    Metadata header;
+    header.set("generatedBy", "Mitsuba version 3.9.1");
+    const auto by_header = detect_roles(layers({{"nn", "XYZ"}, {"uv", "UV"}}), {}, header_hints(header));
+    EXPECT_TRUE(by_header.v_down);
+    EXPECT_EQ(by_header.writer, Writer::mitsuba);
 }
 
 TEST(Roles, OwnPlaneNames) {

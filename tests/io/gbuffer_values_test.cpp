@@ -116,6 +116,29 @@ TEST(GBufferValues, UnrealPackedNormalsAreUnpacked) {
     EXPECT_FALSE(GBufferReader(folder / "signed.exr").packed_normals());
 }
 
+TEST(GBufferValues, PackedNormalsAreRecognisedBesideMuchBackground) {
+    const TempFolder folder;
+    constexpr int size = 64;
+    for (const float background : {0.0f, 0.5f, 128.0f / 255, 1.0f}) {
+        const auto pixel = [&](int c, int x, int y) {
+            if (x < 2 * size / 3) return background;
+            const double a = 0.1 * x, b = 0.02 * y + 0.1;
+            const double n[3] = {std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b)};
+            return static_cast<float>((n[c] + 1) / 2);
+        };
+        write_exr(folder / "a.exr", size, size, {"N.X", "N.Y", "N.Z"}, pixel);
+        const GBufferReader reader(folder / "a.exr");
+        EXPECT_TRUE(reader.packed_normals()) << background;
+        const std::vector<std::string> planes{"normal.x", "normal.y", "normal.z"};
+        std::vector<float> n[3];
+        std::vector<float*> out;
+        for (auto& axis : n) axis.resize(size), out.push_back(axis.data());
+        reader.read_rows(0, 1, planes, out);
+        EXPECT_EQ(std::hypot(n[0][0], n[1][0], n[2][0]), 0) << background << ": no surface";
+        EXPECT_NEAR(std::hypot(n[0][60], n[1][60], n[2][60]), 1, 1e-5);
+    }
+}
+
 TEST(GBufferValues, DepthKindFollowsTheSceneFirst) {
     TempFolder folder;
     write_exr(folder / "m.exr", 4, 4, {"dd.T"});

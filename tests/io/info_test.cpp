@@ -75,6 +75,16 @@ TEST(Info, SaysWhatEachUseLacks) {
               (Names{"normal", "depth or position", "camera"}));
 }
 
+TEST(Info, CryptomattesOfHalfFloatsAreNotReady) {
+    TempFolder folder;
+    write_exr(folder / "f.exr", 4, 4, {"CryptoObject00.R", "CryptoObject00.G", "CryptoObject00.B", "CryptoObject00.A"},
+              numbered, OIIO::TypeHalf);
+    const auto info = gather_info({.file = folder / "f.exr", .roles = {}});
+    expect_mentions(info.cryptomatte_problem, {"16-bit", "render cryptomattes as 32-bit float"});
+    const Names missing = use_of(info, "mask by cryptomatte").missing;
+    EXPECT_NE(std::ranges::find(missing, "whole ids of 32 bits"), missing.end());
+}
+
 // What `run` refuses is not called ready.
 TEST(Info, ACameraOfAnotherFrameIsNoCamera) {
     TempFolder folder;

@@ -50,6 +50,13 @@ TEST(ObjectIds, BitsOfFloatsAreRecognised) {
     EXPECT_EQ(object_storage(hashes), ObjectStorage::bits);
     label_objects(hashes, ObjectStorage::bits);
     EXPECT_EQ(hashes[0], object_label(0x4b3a1f27));
+    std::vector<float> varied;  // hashes whose floats are tiny, huge, or whole by chance
+    for (int i = 0; i < 300; ++i)
+        varied.push_back(std::bit_cast<float>(i % 3 == 0 ? 0x024b1f27u : i % 3 == 1 ? 0x7a9d2b11u : 0x4f3a1f00u));
+    EXPECT_EQ(object_storage(varied), ObjectStorage::bits);
+    std::vector<float> shares;  // what filters leave of 3 at edges: small, and none alike
+    for (int i = 1; i < 300; ++i) shares.push_back(i % 2 == 0 ? 3 : 3e-6f * static_cast<float>(i));
+    EXPECT_EQ(object_storage(shares), ObjectStorage::single);
     std::vector<float> edges;  // averages of two objects, of which no two are alike
     for (int i = 1; i < 1000; ++i) edges.push_back(3 + 4 * static_cast<float>(i) / 1000);
     EXPECT_EQ(object_storage(edges), ObjectStorage::single);

@@ -116,6 +116,31 @@ TEST_F(SurfaceCheck, NormalsInAnotherSpaceAreTold) {
     expect_one(doubts(with_normals([](Normal n) { return Normal{-n[0], -n[1], -n[2]}; })), {"inside out"});
 }
 
+/// A sphere that a parallel camera sees from above.
+TEST(SurfaceCheckOfParallelCameras, NormalsInAnotherSpaceAreTold) {
+    const TempFolder folder;
+    constexpr int size = 96;
+    CameraSource source;
+    source.inline_camera = Camera{{{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, -8}, {0, 0, 0, 1}}},
+                                  {{{0.5, 0, 0, 0}, {0, 0.5, 0, 0}, {0, 0, -0.1, 0}, {0, 0, 0, 1}}}};
+    for (const bool in_camera_space : {false, true}) {
+        const auto pixel = [&](int c, int x, int y) {
+            const double u = 2 * ((2 * x + 1.0) / size - 1), v = 2 * (1 - (2 * y + 1.0) / size);
+            const double w = std::sqrt(std::max(1.9 * 1.9 - u * u - v * v, 0.0)), length = 1.9;
+            if (w < 0.4) return c == 3 ? 1e10f : 0.0f;
+            // The view's axes are x, z and -y: it looks along y.
+            const double seen[3] = {u / length, v / length, w / length}, world[3] = {seen[0], -seen[2], seen[1]};
+            if (c == 3) return static_cast<float>(8 - w);
+            return static_cast<float>(in_camera_space ? seen[c] : world[c]);
+        };
+        write_exr(folder / "p.exr", size, size, {"N.X", "N.Y", "N.Z", "Z"}, pixel);
+        const GBufferReader reader(folder / "p.exr");
+        const std::vector<std::string> doubts = read_frame_camera(source, reader).doubts;
+        ASSERT_EQ(doubts.size(), in_camera_space ? 1u : 0u);
+        if (in_camera_space) expect_mentions(doubts.front(), {"normals = \"camera\""});
+    }
+}
+
 TEST_F(SurfaceCheck, DepthThatIsNoDistanceIsTold) {
     bool fits = true;
     EXPECT_TRUE(doubts(planes_, &fits).empty());

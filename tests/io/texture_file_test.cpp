@@ -230,6 +230,16 @@ TEST(TextureFile, TheZeroOfPackedIntegersMayBe128) {
     write_exr(folder / "n.exr", 2, 2, {"R", "G", "B"}, stored);
     use.file = folder / "n.exr";
     expect_mentions(error_of([&] { load_bump(use); }), {"zero = 128 is for integers"});
+    write_exr(folder / "n.png", 2, 2, {"R", "G", "B"}, stored, OIIO::TypeUInt16);
+    use.file = folder / "n.png";
+    expect_mentions(error_of([&] { load_bump(use); }), {"zero = 128", "32768 for 16 bits"});
+}
+
+TEST(TextureFile, IntegersOf32BitsAreNoHeights) {
+    TempFolder folder;
+    write_exr(
+        folder / "h.exr", 2, 2, {"Y"}, [](int, int x, int) { return static_cast<float>(x); }, OIIO::TypeUInt32);
+    expect_mentions(error_of([&] { load_texture(folder / "h.exr", ImageUse::scalar); }), {"\"Y\"", "32-bit integers"});
 }
 
 }  // namespace

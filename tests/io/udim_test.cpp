@@ -1,5 +1,6 @@
 #include "io/texture_file.h"
 
+#include "io/texture_doubts.h"
 #include "tests/io/files.h"
 
 namespace wrinkle {
@@ -26,6 +27,7 @@ TEST(Udim, TilesBecomeOneImage) {
     EXPECT_FLOAT_EQ(slopes.at(5, 1, 0), 3 * 0.5f);
     EXPECT_FLOAT_EQ(slopes.at(1, 3, 1), 2 * 0.75f);
     EXPECT_EQ(slopes.at(3, 0, 0), 0) << "no tile: flat";
+    expect_mentions(io::texture_doubt(use, slopes), {"t.<UDIM>.exr", "no tile 1002 among its 3"});
     write_exr(folder / "t.1002.exr", 4, 4, {"R", "G"});
     expect_mentions(error_of([&] { load_bump(use); }), {"t.1002.exr: 4 x 4 texels", "have 2 x 2"});
     use.file = folder / "u.<UDIM>.exr";

@@ -50,6 +50,22 @@ TEST(Views, PartsOfAnotherViewAreNotThere) {
     expect_mentions(error_of([&] { open(folder / "a.exr", "centre"); }), {"no view \"centre\"", "\"left\", \"right\""});
 }
 
+TEST(Views, AnotherEyesCameraIsNotTaken) {
+    TempFolder folder;
+    const Names channels{"Z", "N.X", "N.Y", "N.Z"};
+    std::vector<PartSpec> parts{part("left", "left", channels, 10), part("right", "right", channels, 20)};
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+        float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, eye == 0 ? 0.0f : 7.0f, 0, 0, 1};
+        parts[eye].spec.attribute("worldToCamera", OIIO::TypeMatrix44, matrix);
+    }
+    write_image(folder / "a.exr", parts);
+    const auto matrix_of = [&](const std::string& view) {
+        return open(folder / "a.exr", view).metadata().matrix("worldToCamera").value();
+    };
+    EXPECT_NE(matrix_of("left"), matrix_of("right"));
+    EXPECT_EQ(matrix_of("right")[3][0] + matrix_of("right")[0][3], 7);
+}
+
 TEST(Views, PartsNamedByTheirEyeNeedNoAttribute) {
     TempFolder folder;
     write_image(folder / "a.exr", {part("N.right", "", {"X", "Y", "Z"}, 20), part("N.left", "", {"X", "Y", "Z"}, 10),
