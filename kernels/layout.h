@@ -58,7 +58,8 @@ typedef struct {
     WR_SCALAR position[3];          // relative to the eye, metres; not of a sun
     WR_SCALAR to_light[3];          // unit, world, against the way the light travels; of a sun and a spot
     WR_SCALAR cos_inner, cos_outer; // of a spot: cosine of the angle up to which light is full, and from which none
-    WR_SCALAR picture;              // number of the picture that shows this light alone, from 1 on; 0: none does
+    // Numbers of the pictures that show what of this light is diffuse, and what is specular, from 1 on; 0: none does
+    WR_SCALAR diffuse, specular;
 } wr_light;
 
 // Lighting of a frame.

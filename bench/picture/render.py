@@ -2,7 +2,7 @@
 
     python3.11 render.py DATA_FOLDER OUT.exr      Python with PyPI's bpy 5.0 and numpy 1.26; two minutes on two cores
 
-OUT.exr has Blender's names for what a frame holds (ViewLayer.*: 64 samples of the picture and of the sun's own light; depth, normal,
+OUT.exr has Blender's names for what a frame holds (ViewLayer.*: 64 samples of the picture, of the sun's own light and of what is mirrored; depth, normal,
 UV and object index by one sample in the middle of each pixel) and two layers that a frame never has: Bumped, the picture rendered again
 with a Bump node in every material, and BumpedAgain, with another seed. Objects: 1 a torus, 2 a metal ball, 3 the ground. The camera
 lies beside it as OUT.camera.json. Pictures and normals are half floats, depth and UV floats whose last bits are rounded off.
@@ -24,7 +24,8 @@ WIDTH, HEIGHT, SAMPLES = 320, 180, 64
 SUN = Vector((0.70, 0.48, -0.53))  # the way it travels
 DATA = ("Depth.Z", "Normal.X", "Normal.Y", "Normal.Z", "UV.U", "UV.V", "Object Index.X")
 COLOURS = ("Combined.R", "Combined.G", "Combined.B", "Combined_sun.R", "Combined_sun.G", "Combined_sun.B",
-           "Diffuse Color.R", "Diffuse Color.G", "Diffuse Color.B")
+           "Diffuse Color.R", "Diffuse Color.G", "Diffuse Color.B",
+           *(f"Glossy {part}.{c}" for part in ("Direct", "Indirect", "Color") for c in "RGB"))
 
 data, out = sys.argv[-2:]
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -103,7 +104,7 @@ scene.render.engine = "CYCLES"
 scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
 scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = WIDTH, HEIGHT, 100
 view = scene.view_layers[0]
-for wanted in ("z", "normal", "uv", "object_index", "diffuse_color"):
+for wanted in ("z", "normal", "uv", "object_index", "diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color"):
     setattr(view, "use_pass_" + wanted, True)
 view.lightgroups.add(name="sun")
 sun.lightgroup = "sun"

@@ -54,7 +54,8 @@ def set_up_passes(scene, light_groups=False):
     notes = []
     beauty = beauty_layer(scene)
     beauty.use_pass_combined = True
-    beauty.use_pass_diffuse_color = True
+    for name in ("diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color"):
+        setattr(beauty, "use_pass_" + name, True)
     data = scene.view_layers.get(DATA_LAYER) or scene.view_layers.new(DATA_LAYER)
     copy_exclusions(beauty.layer_collection, data.layer_collection)
     for name in ("position", "normal", "z", "uv", "object_index", "cryptomatte_object"):
@@ -121,8 +122,11 @@ def quoted(text):
     return json.dumps(text, ensure_ascii=False)
 
 
-def light_toml(item):
-    """A [[light]], or a comment where wrinkle has none of the kind. Watts become radiant intensity: P / 4 pi."""
+MOST_PICTURES = 16  # of lights, that wrinkle takes apart in one picture
+
+
+def light_toml(item, beauty, light_groups):
+    """A [[light]]. Watts become radiant intensity: P / 4 pi. With light groups it has a picture of its own."""
     lamp = item.data
     energy = lamp.energy * 2 ** getattr(lamp, "exposure", 0)
     color = list(lamp.color)
@@ -146,6 +150,8 @@ def light_toml(item):
                 "outer_angle = %.6g" % min(outer, 89.0),
             ]
     lines.append("color = " + numbers(color))
+    if light_groups:
+        lines.append("picture = " + quoted("%s.Combined_%s" % (beauty, item.name)))
     return "\n".join(lines)
 
 
@@ -337,7 +343,7 @@ def translate_bumps(scene, folder, keep_bumps):
 # --- scene.toml ---------------------------------------------------------------------------------------------------------
 
 
-def scene_toml(scene, pattern, layers, untranslated, notes):
+def scene_toml(scene, pattern, layers, untranslated, notes, light_groups):
     ambient, plain = world_radiance(scene.world)
     if not plain:
         notes = notes + ["the world is textured: ambient is a guess"]
@@ -351,12 +357,11 @@ def scene_toml(scene, pattern, layers, untranslated, notes):
 [gbuffer]
 file = %s
 layer = "%s"
-roles = { beauty = %s, albedo = %s }
+roles = { %s }
 
 [camera]
 file = %s
-""" % (quoted(pattern + ".exr"), DATA_LAYER, quoted(beauty + ".Combined"), quoted(beauty + "." + albedo_name()),
-       quoted(pattern + ".camera.json")))
+""" % (quoted(pattern + ".exr"), DATA_LAYER, roles_of(beauty), quoted(pattern + ".camera.json")))
     if layers:
         text.append("\n\n".join(layers))
     else:
@@ -364,15 +369,27 @@ file = %s
 kind = "noise"
 frequency = 8                               # cells per metre
 scale = 0.02                                # metres of height""")
-    if not any(ambient) and not lights:
-        ambient = [0.2, 0.2, 0.2]
-    text.append("\n[lighting]\nrelight = \"ratio\"\nambient = %s\n" % numbers(ambient))
-    text.append("\n\n".join(light_toml(item) for item in lights))
+    text.append("\n[lighting]\nrelight = \"ratio\"")
+    known = plain and all(item.data.type != "AREA" for item in lights)  # then they are in the picture's units
+    if lights and known and not light_groups:
+        text.append("shadows = \"read\"")
+    if any(ambient):
+        text.append("ambient = " + numbers(ambient))
+    elif not lights:
+        text.append("# no lights were found: they are fitted to the picture")
+    for place, item in enumerate(lights):
+        text.append("\n" + light_toml(item, beauty, light_groups and place < MOST_PICTURES))
     return "\n".join(text) + "\n"
 
 
-def albedo_name():
-    return "Diffuse Color" if bpy.app.version >= (5, 0, 0) else "DiffCol"
+def roles_of(beauty):
+    """What the layer of the picture shows, by the names that its passes have in the file."""
+    new = bpy.app.version >= (5, 0, 0)
+    names = {"beauty": "Combined", "albedo": "Diffuse Color" if new else "DiffCol",
+             "specular_direct": "Glossy Direct" if new else "GlossDir",
+             "specular_indirect": "Glossy Indirect" if new else "GlossInd",
+             "specular_color": "Glossy Color" if new else "GlossCol"}
+    return ", ".join("%s = %s" % (role, quoted(beauty + "." + name)) for role, name in names.items())
 
 
 def export(scene, folder, frames, light_groups=False, keep_bumps=True, render=False):
@@ -393,7 +410,7 @@ def export(scene, folder, frames, light_groups=False, keep_bumps=True, render=Fa
     scene.render.filepath = os.path.join(folder, "frame.####")
     pattern = "frame.%04d" % frames[0] if len(frames) == 1 else "frame.####"
     with open(os.path.join(folder, "scene.toml"), "w", encoding="utf-8") as out:
-        out.write(scene_toml(scene, pattern, layers, untranslated, notes))
+        out.write(scene_toml(scene, pattern, layers, untranslated, notes, light_groups))
     return notes + ["not translated: " + line for line in untranslated]
 
 

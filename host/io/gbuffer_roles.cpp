@@ -189,6 +189,10 @@ const std::vector<Role>& gbuffer_roles() {
         {"transmission_direct", {"transmission_direct.r", "transmission_direct.g", "transmission_direct.b"}},
         {"transmission_indirect", {"transmission_indirect.r", "transmission_indirect.g", "transmission_indirect.b"}},
         {"transmission_color", {"transmission_color.r", "transmission_color.g", "transmission_color.b"}},
+        {"specular", {"specular.r", "specular.g", "specular.b"}},
+        {"specular_direct", {"specular_direct.r", "specular_direct.g", "specular_direct.b"}},
+        {"specular_indirect", {"specular_indirect.r", "specular_indirect.g", "specular_indirect.b"}},
+        {"specular_color", {"specular_color.r", "specular_color.g", "specular_color.b"}},
         {"beauty", {"beauty.r", "beauty.g", "beauty.b"}},
         {"cryptomatte", {"crypto.id0", "crypto.coverage0"}},  // and further ranks, as many as the file has
     };
@@ -219,7 +223,8 @@ RoleMap detect_roles(std::span<const std::string> channels, const GBufferSource&
     map.writer = hints.vray ? Writer::vray : hints.mitsuba ? Writer::mitsuba : io::recognise_writer(channels);
     const auto prefix = choose_prefix(index, source);
     for (const auto& role : gbuffer_roles()) {
-        if (role.name != "cryptomatte") assign(map, role, find_role(index, role, prefix));
+        const bool parameter = role.name == "specular" && map.writer == Writer::unreal;  // a material's, no light
+        if (role.name != "cryptomatte" && !parameter) assign(map, role, find_role(index, role, prefix));
     }
     if (map.writer == Writer::mitsuba) fill_mitsuba(map, index);
     const auto cryptomattes = io::find_cryptomattes(index, hints.cryptomattes);

@@ -34,6 +34,10 @@ std::span<const RoleNames> role_names() {
         {"transmission_direct", {"transmissiondirect", "transdir"}},
         {"transmission_indirect", {"transmissionindirect", "transind"}},
         {"transmission_color", {"transmissioncolor", "transcol"}},
+        {"specular", {"specular", "specularlighting"}},
+        {"specular_direct", {"speculardirect", "glossydirect", "glossdir"}},
+        {"specular_indirect", {"specularindirect", "glossyindirect", "glossind"}},
+        {"specular_color", {"specularcolor", "glossycolor", "glosscol"}},
         {"beauty", {"beauty", "combined", "rgba", "rgb", "rgbcolor", "c", "ci", "image", "finalimage", ""}},
     };
     return names;
@@ -62,7 +66,8 @@ std::vector<std::vector<std::string_view>> component_sets(std::string_view role,
     if (planes == 1) return {{"z"}, {"t"}, {"v"}, {"x"}, {"r"}, {"i"}, {"y"}, {"red"}};
     if (planes == 2) return {{"u", "v"}, {"s", "t"}, {"x", "y"}, {"r", "g"}, {"red", "green"}};
     const std::vector<std::string_view> colour{"r", "g", "b"}, words{"red", "green", "blue"}, space{"x", "y", "z"};
-    if (role == "albedo" || role == "beauty" || role == "emission" || role.starts_with("transmission"))
+    if (role == "albedo" || role == "beauty" || role == "emission" || role.starts_with("transmission") ||
+        role.starts_with("specular"))
         return {colour, words, space};
     return {space, colour, words};
 }

@@ -26,12 +26,27 @@ std::string lit_surface_text(Emitter& emitter, Section& section) {
     return text + roughness_text(emitter, section);
 }
 
+namespace {
+
+/// Whether planes show a part of the picture: by themselves, or direct and indirect light and the colour both are
+/// times.
+bool has_part(const Emitter& emitter, const std::string& part) {
+    return emitter.has(part + ".r") ||
+           (emitter.has(part + "_direct.r") && emitter.has(part + "_indirect.r") && emitter.has(part + "_color.r"));
+}
+
+bool specular_apart(const Emitter& emitter) {
+    return emitter.scene.lighting.relight == Relight::ratio && has_part(emitter, "specular");
+}
+
+}  // namespace
+
 std::vector<LitTerm> lit_terms(const Emitter& emitter) {
     if (emitter.scene.lighting.relight != Relight::ratio)
         return {{"lit", "wr_light_surface({p}, {n}, base, v, albedo, {roughness}, lighting, lights)"}};
     std::vector<LitTerm> terms{{"lit_sky", "wr_sky(lighting, {n}, base)"}};
-    const std::size_t pictures = pictures_of(emitter.scene.lighting).size();
-    for (std::size_t k = 0; k <= pictures; ++k)
+    const std::size_t last = pictures_of(emitter.scene.lighting).size() + (specular_apart(emitter) ? 1 : 0);
+    for (std::size_t k = 0; k <= last; ++k)
         terms.push_back(
             {lit_name(k),
              fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k)});
@@ -56,18 +71,38 @@ std::string load_text(Section& section, const std::string& name, const std::arra
         name, identifier(planes[0]), identifier(planes[1]), identifier(planes[2]));
 }
 
-/// Text that declares `through`, what a pixel shows through its surface; empty where no pass tells.
-std::string through_text(Emitter& emitter, Section& section) {
-    const auto load = [&](const char* name) {
-        const std::string plane = name;
+/// Text that declares `part`, which has_part() finds, as `name`.
+std::string part_text(Emitter& emitter, Section& section, const std::string& part, const char* name) {
+    const auto load = [&](const std::string& plane) {
         return load_text(section, plane, {plane + ".r", plane + ".g", plane + ".b"});
     };
-    if (emitter.has("transmission.r")) return load("transmission") + "        wr_vec3 through = transmission;\n";
-    for (const char* part : {"transmission_direct.r", "transmission_indirect.r", "transmission_color.r"})
-        if (!emitter.has(part)) return {};
-    return load("transmission_direct") + load("transmission_indirect") + load("transmission_color") +
-           "        wr_vec3 through = wr_multiply3(wr_add(transmission_direct, transmission_indirect), "
-           "transmission_color);\n";
+    if (emitter.has(part + ".r")) return load(part) + fmt::format("        wr_vec3 {} = {};\n", name, part);
+    return load(part + "_direct") + load(part + "_indirect") + load(part + "_color") +
+           fmt::format("        wr_vec3 {0} = wr_multiply3(wr_add({1}_direct, {1}_indirect), {1}_color);\n", name,
+                       part);
+}
+
+/// Text that takes `mirrored` from `rest`: what the rest of the picture shows as specular.
+std::string mirrored_text(Emitter& emitter, Section& section, const std::vector<std::string>& pictures) {
+    const std::vector<Light>& lights = emitter.scene.lighting.lights;
+    const auto any = [&](std::string Light::*lobe, const std::string& name) {
+        return std::ranges::any_of(lights, [&](const Light& light) { return light.*lobe == name; });
+    };
+    std::string text = part_text(emitter, section, "specular", "mirrored"), whole;
+    for (std::size_t k = 1; k <= pictures.size(); ++k) {
+        if (any(&Light::picture, pictures[k - 1]))
+            whole = whole.empty() ? fmt::format("own_{}", k) : fmt::format("wr_add({}, own_{})", whole, k);
+        else if (any(&Light::specular, pictures[k - 1]))
+            text += fmt::format("        mirrored = wr_sub(mirrored, own_{});\n", k);
+    }
+    // Nothing tells how much of a light's whole picture is specular: as much as of all that the pixel shows.
+    if (!whole.empty())
+        text += fmt::format(
+            "        wr_vec3 whole = {};\n        mirrored = wr_beside_part(mirrored, whole, wr_add(rest, whole));\n",
+            whole);
+    return text +
+           "        mirrored = wr_min(wr_max(mirrored, wr_zero3()), rest);\n"
+           "        rest = wr_sub(rest, mirrored);\n";
 }
 
 /// Text that declares `left`: 1 where the picture is to stay as it is.
@@ -99,10 +134,12 @@ std::string relight_text(Emitter& emitter, Section& section) {
     text +=
         "        rest = wr_max(rest, wr_zero3());\n"
         "        wr_vec3 sky = wr_v3(albedo.x * old_lit_sky.x, albedo.y * old_lit_sky.y, albedo.z * old_lit_sky.z);\n";
-    if (emitter.scene.lighting.shadows == Shadows::read)
+    const bool apart = specular_apart(emitter), read = emitter.scene.lighting.shadows == Shadows::read;
+    if (apart) text += mirrored_text(emitter, section, pictures);
+    if (read)
         text +=
-            "        wr_vec3 lamps = wr_min(wr_scale(old_lit, wr_visibility(rest, sky, old_lit, lighting->shadow)), "
-            "rest);\n"
+            "        wr_real reached = wr_visibility(rest, sky, old_lit, lighting->shadow);\n"
+            "        wr_vec3 lamps = wr_min(wr_scale(old_lit, reached), rest);\n"
             "        change = wr_add(change, wr_relight_change(lamps, lit, old_lit, lighting->max_ratio));\n"
             "        change = wr_add(change,\n"
             "            wr_relight_change(wr_sub(rest, lamps), lit_sky, old_lit_sky, lighting->max_ratio));\n";
@@ -111,6 +148,15 @@ std::string relight_text(Emitter& emitter, Section& section) {
             "        lit = wr_add(lit, wr_v3(albedo.x * lit_sky.x, albedo.y * lit_sky.y, albedo.z * lit_sky.z));\n"
             "        change = wr_add(change, wr_relight_change(rest, lit, wr_add(old_lit, sky), "
             "lighting->max_ratio));\n";
+    // What mirrors the sky and all around stays as it is: nothing tells what is there to mirror.
+    if (apart)
+        text += fmt::format(
+            fmt::runtime(read ? "        change = wr_add(change, wr_relight_change(wr_min(wr_scale(old_{0}, reached), "
+                                "mirrored), {0}, old_{0},\n            lighting->max_ratio));\n"
+                              : "        wr_vec3 around = wr_scale(old_lit_sky, (wr_real)(lighting->f0));\n"
+                                "        change = wr_add(change, wr_relight_change(mirrored, wr_add({0}, around), "
+                                "wr_add(old_{0}, around),\n            lighting->max_ratio));\n"),
+            lit_name(pictures.size() + 1));
     // Metal mirrors what is around it, which nobody knows: it stays as it is.
     if (emitter.has("metallic")) {
         section.inputs.insert("metallic");
@@ -120,9 +166,10 @@ std::string relight_text(Emitter& emitter, Section& section) {
             "        change = wr_select(fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO, change, "
             "wr_zero3());\n";
     }
-    if (const std::string through = through_text(emitter, section); !through.empty())
-        text += through + fmt::format("        change = wr_beside_part(change, through, {});\n",
-                                      emitter.has("emission.r") ? "wr_sub(beauty, emission)" : "beauty");
+    if (has_part(emitter, "transmission"))
+        text += part_text(emitter, section, "transmission", "through") +
+                fmt::format("        change = wr_beside_part(change, through, {});\n",
+                            emitter.has("emission.r") ? "wr_sub(beauty, emission)" : "beauty");
     if (emitter.scene.lighting.leave)
         text += left_text(emitter, section) + "        change = wr_scale(change, 1 - left);\n";
     return text +
@@ -171,6 +218,7 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
         text += fmt::format("        wr_vec3 old_{} = {};\n", term.value, term.of("p", "base", "roughness"));
     }
     text += relight_text(emitter, section);
+    emitter.plan.specular_apart = specular_apart(emitter);
     if (emitter.scene.output.marked) {
         section.reads.insert("marked");
         section.writes.insert("marked");

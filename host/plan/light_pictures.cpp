@@ -13,14 +13,18 @@ namespace wrinkle {
 std::vector<std::string> pictures_of(const Lighting& lighting) {
     std::vector<std::string> pictures;
     for (const Light& light : lighting.lights)
-        if (!light.picture.empty() && std::ranges::find(pictures, light.picture) == pictures.end())
-            pictures.push_back(light.picture);
+        for (const std::string* name : {&light.picture, &light.diffuse, &light.specular})
+            if (!name->empty() && std::ranges::find(pictures, *name) == pictures.end()) pictures.push_back(*name);
     return pictures;
 }
 
-std::size_t picture_number(const std::vector<std::string>& pictures, const Light& light) {
-    if (light.picture.empty()) return 0;
-    return static_cast<std::size_t>(std::ranges::find(pictures, light.picture) - pictures.begin()) + 1;
+LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart) {
+    const auto number = [&](const std::string& lobe, std::size_t none) {
+        const std::string& name = lobe.empty() ? light.picture : lobe;
+        if (name.empty()) return none;
+        return static_cast<std::size_t>(std::ranges::find(pictures, name) - pictures.begin()) + 1;
+    };
+    return {number(light.diffuse, 0), number(light.specular, specular_apart ? pictures.size() + 1 : 0)};
 }
 
 const char* lit_name(std::size_t picture) {
@@ -32,6 +36,23 @@ const char* lit_name(std::size_t picture) {
             "lights have more than {} different pictures; give lights whose pictures matter less none", kMostPictures));
     return names[picture];
 }
+
+namespace {
+
+/// The first light that names a picture, and how, to start a message: scene.toml:12: light 2 has picture = "sun".
+std::string who_wants(const Lighting& lighting, const std::string& picture) {
+    for (std::size_t i = 0; i < lighting.lights.size(); ++i) {
+        const Light& light = lighting.lights[i];
+        for (const auto& [key, name] : {std::pair{"picture", &light.picture}, std::pair{"diffuse", &light.diffuse},
+                                        std::pair{"specular", &light.specular}})
+            if (*name == picture)
+                return fmt::format("{}{}light {} has {} = {}", light.location, light.location.empty() ? "" : ": ",
+                                   i + 1, key, quote(picture));
+    }
+    return fmt::format("a light has picture = {}", quote(picture));
+}
+
+}  // namespace
 
 std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::string& picture) {
     constexpr std::string_view prefix = "channel:";
@@ -48,7 +69,7 @@ std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::str
     }
     if (found.size() != 1)
         throw Error(fmt::format(
-            "a [[light]] has picture = {}; {}", quote(picture),
+            "{}; {}", who_wants(emitter.scene.lighting, picture),
             found.empty()
                 ? (layers.empty() ? std::string("no layer of the frame has R, G and B")
                                   : fmt::format("no layer with R, G and B has that name; nearest: {}; there are {}",

@@ -8,19 +8,25 @@
 
 namespace wrinkle {
 
-/// The layers of the frame that show lights of a scene alone, each once; a light's picture has its place among them,
-/// from 1 on, as its number.
+/// The layers of the frame that show lights of a scene alone, or a lobe of them, each once.
 std::vector<std::string> pictures_of(const Lighting& lighting);
-std::size_t picture_number(const std::vector<std::string>& pictures, const Light& light);
+
+/// The numbers of the pictures that show what of a light is diffuse, and what is specular: their places among those of
+/// the scene, from 1 on; 0: none does, and it is in the rest of the picture. With `specular_apart` what is specular of
+/// that has the number after the last.
+struct LightPictures {
+    std::size_t diffuse = 0, specular = 0;
+};
+LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart);
 
 /// The most of them that a scene may have.
 constexpr std::size_t kMostPictures = 16;
 
-/// Name of the value that holds the radiance of the lights of a picture; of 0: of those without.
+/// Name of the value that holds the radiance that a picture shows; of 0: that which none does.
 const char* lit_name(std::size_t picture);
 
 /// The planes of a picture: those of the layer of this name, or of the only one whose name ends so after a dot. Throws
-/// Error, naming layers there are.
+/// Error, naming the light that wants it, and layers there are.
 std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::string& picture);
 
 }  // namespace wrinkle

@@ -153,6 +153,7 @@ struct Plan {
     std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors are binned to
     bool neighbours = false;             ///< reads pixels of the rows above and below
     bool blocks = false;                 ///< work-items may evaluate blocks of pixels instead of rows
+    bool specular_apart = false;         ///< what the picture shows as specular is relit apart from the rest
     std::vector<SectionSummary> sections;
     double bytes = 0;  ///< expected per pixel: planes read and written once
 };

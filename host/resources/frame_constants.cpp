@@ -11,7 +11,7 @@ namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 13 * sizeof(double) &&
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 14 * sizeof(double) &&
                   sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 35 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
@@ -205,7 +205,9 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
             continue;
         }
         out.lights.push_back(fill_light(light, eye));
-        out.lights.back().picture = static_cast<double>(picture_number(pictures, light));
+        const LightPictures numbers = picture_numbers(pictures, light, plan.specular_apart);
+        out.lights.back().diffuse = static_cast<double>(numbers.diffuse);
+        out.lights.back().specular = static_cast<double>(numbers.specular);
     }
     // A sky that nobody has told of gives half of what a sun does at most: what is darker is taken for shadow.
     const bool dark = std::ranges::all_of(out.lighting.sky, [](double k) { return k == 0; });

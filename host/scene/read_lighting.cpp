@@ -15,8 +15,14 @@ void read_color(Table& table, Light& light) {
 }
 
 /// Whether there is one is compiled in; lights without come and go.
-void read_picture(Table& table, Light& light) {
-    if (!table.visits() || !light.picture.empty()) table.read("picture", light.picture);
+void read_pictures(Table& table, Light& light) {
+    const auto read = [&](const char* key, std::string& name) {
+        if (!table.visits() || !name.empty()) table.read(key, name);
+    };
+    read("picture", light.picture), read("diffuse", light.diffuse), read("specular", light.specular);
+    if (!light.picture.empty() && !(light.diffuse.empty() && light.specular.empty()))
+        table.complain(light.diffuse.empty() ? "specular" : "diffuse",
+                       "is a part of what picture shows; name picture, or diffuse and specular");
 }
 
 void read_position(Table& table, Light& light) {
@@ -47,21 +53,21 @@ void read_sky(Table& table, Light& light) {
 void read_sun(Table& table, Light& light) {
     light.kind = LightKind::sun;
     read_color(table, light);
-    read_picture(table, light);
+    read_pictures(table, light);
     read_direction(table, light);
 }
 
 void read_point(Table& table, Light& light) {
     light.kind = LightKind::point;
     read_color(table, light);
-    read_picture(table, light);
+    read_pictures(table, light);
     read_position(table, light);
 }
 
 void read_spot(Table& table, Light& light) {
     light.kind = LightKind::spot;
     read_color(table, light);
-    read_picture(table, light);
+    read_pictures(table, light);
     read_position(table, light);
     read_direction(table, light);
     table.read_degrees("inner_angle", light.inner_angle, {.low = 0, .high = 180});
@@ -80,6 +86,7 @@ constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spo
 }  // namespace
 
 void read_light(Table& table, Light& out) {
+    if (!table.visits()) out.location = table.location();
     // In the order of LightKind. Kernels read the kind of a light: it is not compiled in.
     const auto held = static_cast<std::size_t>(out.kind);
     if (table.visits() && held >= std::size(kinds))

@@ -23,6 +23,8 @@
 ///   emission    emission.r .g .b                   what surfaces give off, linear
 ///   transmission  transmission.r .g .b             what shows through surfaces: glass, water; or in three parts,
 ///   transmission_direct, _indirect, _color         ... direct and indirect light, and the colour that both are times
+///   specular    specular.r .g .b                   what surfaces mirror, of the lights and of all around; or in
+///   specular_direct, _indirect, _color             ... three such parts
 ///   beauty      beauty.r .g .b                     the finished picture, linear
 ///   cryptomatte crypto.id0 crypto.coverage0 ...    ranked pairs; id is float bits
 /// Any other channel of the file is the plane "channel:NAME".

@@ -24,11 +24,13 @@ struct Light {
     Vec3 position{};                              ///< world; point, spot
     Vec3 direction{0, 0, -1};                     ///< the way the light travels; sun, spot
     double inner_angle = 0.4, outer_angle = 0.6;  ///< radians from the axis; spot
-    /// Layer of the frame that shows this light's share of the picture alone; empty: none does. sun, point, spot
-    std::string picture{};
+    /// Layers of the frame that show this light's share of the picture alone: all of it, or what is diffuse and what is
+    /// specular of it apart; empty: none does. sun, point, spot
+    std::string picture{}, diffuse{}, specular{};
     Vec3 up{0, 0, 1};          ///< sky: where the zenith is
     Vec3 zenith{}, horizon{};  ///< sky: radiance, between them linear in the sine of the elevation (times intensity)
     Vec3 ground{};             ///< sky: radiance below the horizon
+    std::string location{};    ///< "scene.toml:12" for messages; empty for lights made in code
 };
 
 enum class Relight { off, lit, ratio };

@@ -15,7 +15,7 @@ inline Lighting test_lighting() {
     lighting.lights = {{LightKind::sun, {1, 0.5, 0.25}, 2, {}, {0, 0, -1}, 0, 0},
                        {LightKind::point, {0.5, 1, 1}, 8, {2, -1, 3}, {0, 0, -1}, 0, 0},
                        {LightKind::spot, {1, 1, 0.5}, 16, {-2, 1, 4}, {0, 0, -1}, 0.25, 0.75}};
-    lighting.lights[1].picture = "lamp";
+    lighting.lights[1].picture = "lamp", lighting.lights[2].specular = "gleam";
     Light sky{.kind = LightKind::sky};
     sky.intensity = 0.5, sky.up = {0.36, -0.48, 0.8};
     sky.zenith = {0.25, 0.5, 1}, sky.horizon = {0.75, 0.75, 0.5}, sky.ground = {0.25, 0.125, 0};
@@ -58,6 +58,8 @@ inline Cases lighting_cases() {
         const V bare = normalize(m), view = normalize(v);
         c.out("lamp", reference::lit_by("lamp", lighting, normalize(n), bare, view, p, surface));
         c.out("base", reference::lit_by("lamp", lighting, bare, bare, view, p, surface));
+        c.out("gleam", reference::lit_by("gleam", lighting, normalize(n), bare, view, p, surface));
+        c.out("rest", reference::lit_by("", lighting, normalize(n), bare, view, p, surface));
         c.out("sky", reference::sky_light(lighting, normalize(n), bare));
     }
     return c;

@@ -32,7 +32,7 @@ Names layers(std::initializer_list<std::pair<const char*, const char*>> parts) {
 }
 
 TEST(Roles, EveryRoleHasThePlanesOfTheContract) {
-    EXPECT_EQ(gbuffer_roles().size(), 22u);
+    EXPECT_EQ(gbuffer_roles().size(), 26u);
     EXPECT_EQ(gbuffer_roles().front().planes, (Names{"position.x", "position.y", "position.z"}));
 }
 
@@ -54,6 +54,20 @@ TEST(Roles, Blender) {
     EXPECT_EQ(map.cryptomatte_layer, "ViewLayer.CryptoObject");
     EXPECT_FALSE(map.has_role("albedo"));
     EXPECT_FALSE(map.has_role("dp_du"));
+}
+
+TEST(Roles, WhatSurfacesMirror) {
+    expect_channels(
+        detect_roles(layers(
+            {{"VL.Normal", "XYZ"}, {"VL.GlossDir", "RGB"}, {"VL.Glossy Indirect", "RGB"}, {"VL.GlossCol", "RGB"}})),
+        {{"specular_direct.r", "VL.GlossDir.R"},
+         {"specular_indirect.b", "VL.Glossy Indirect.B"},
+         {"specular_color.g", "VL.GlossCol.G"}});
+    expect_channels(detect_roles(layers({{"P", "XYZ"}, {"N", "XYZ"}, {"specular", "RGB"}})),
+                    {{"specular.r", "specular.R"}});
+    const auto unreal = detect_roles(
+        layers({{"FinalImageMovieRenderQueue_WorldNormal", "RGB"}, {"FinalImageMovieRenderQueue_Specular", "RGB"}}));
+    EXPECT_FALSE(unreal.has_role("specular")) << "a number of the material there";
 }
 
 TEST(Roles, LightThatNoBumpChanges) {

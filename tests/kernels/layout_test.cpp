@@ -101,7 +101,7 @@ TEST(Layout, Light) {
     const auto s = counted<wr_light>();
     std::vector<Member> members;
     MEMBER(kind), MEMBER(color), MEMBER(position), MEMBER(to_light), MEMBER(cos_inner), MEMBER(cos_outer);
-    MEMBER(picture);
+    MEMBER(diffuse), MEMBER(specular);
     check_layout("wr_light", members, sizeof s);
 }
 

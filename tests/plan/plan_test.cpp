@@ -91,7 +91,8 @@ TEST(Plan, ListsSectionsByStage) {
     EXPECT_EQ(stages, (std::vector<int>{0, 0, 0, 1, 1, 1, 1}));
     EXPECT_EQ(plan.sections[5].planes,
               (Names{"albedo.b", "albedo.g", "albedo.r", "beauty.b", "beauty.g", "beauty.r", "emission.b", "emission.g",
-                     "emission.r", "metallic", "roughness", "transmission.b", "transmission.g", "transmission.r"}));
+                     "emission.r", "metallic", "roughness", "specular.b", "specular.g", "specular.r", "transmission.b",
+                     "transmission.g", "transmission.r"}));
     EXPECT_EQ(plan.kernels.size(), 1u);
     PlanOptions split;
     split.split = true;

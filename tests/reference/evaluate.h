@@ -126,11 +126,19 @@ public:
         if (frame_.has("roughness")) surface.roughness = frame_.plane("roughness")[i];
         const Vec<T> world = e.position + frame_.rays().eye();
         if (!ratio) return lit(lighting, e.normal, e.base_normal, e.view, world, surface);
+        using Part = typename Relit<T>::Part;
+        using Shows = typename Relit<T>::Shows;
+        const auto shows = [&](const std::string& picture) {
+            const auto any = [&](const std::string Light::*lobe) {
+                return std::ranges::any_of(lighting.lights, [&](const Light& l) { return l.*lobe == picture; });
+            };
+            return any(&Light::picture) ? Shows::both : any(&Light::specular) ? Shows::specular : Shows::diffuse;
+        };
         const auto part = [&](const std::string& picture) {
-            return typename Relit<T>::Part{
-                picture.empty() ? Vec<T>{} : rgb("channel:" + picture, i, "RGB"),
-                lit_by(picture, lighting, e.normal, e.base_normal, e.view, world, surface),
-                lit_by(picture, lighting, e.base_normal, e.base_normal, e.view, world, surface)};
+            return Part{picture.empty() ? Vec<T>{} : rgb("channel:" + picture, i, "RGB"),
+                        lit_by(picture, lighting, e.normal, e.base_normal, e.view, world, surface),
+                        lit_by(picture, lighting, e.base_normal, e.base_normal, e.view, world, surface),
+                        picture.empty() ? Shows::both : shows(picture)};
         };
         Relit<T> relit{
             beauty,
@@ -139,6 +147,12 @@ public:
             {{}, sky_light(lighting, e.normal, e.base_normal), sky_light(lighting, e.base_normal, e.base_normal)}};
         for (const std::string& picture : pictures(lighting))
             if (!picture.empty()) relit.own.push_back(part(picture));
+        if (const auto mirrored = specular(i)) {
+            const auto now = lobes_by({}, lighting, e.normal, e.base_normal, e.view, world, surface);
+            const auto old = lobes_by({}, lighting, e.base_normal, e.base_normal, e.view, world, surface);
+            relit.others.now = now.diffuse, relit.others.old = old.diffuse;
+            relit.mirrored = Part{*mirrored, now.specular, old.specular};
+        }
         const Vec<T> picture = relit.picture(lighting, surface.albedo);
         const Vec<T> a = surface.albedo;
         T metal = frame_.has("albedo.r") && std::max({a.x, a.y, a.z}) <= T(1) / 1000 ? T(1) : T(0);
@@ -201,6 +215,14 @@ private:
                 return false;
         };
         return std::visit(reads, layer.bump) || (layer.mask.texture && layer.mask.texture->uv.source == UvSource::aov);
+    }
+
+    /// What of the picture is specular, where the frame tells.
+    std::optional<Vec<T>> specular(std::size_t i) const {
+        if (frame_.has("specular.r")) return rgb("specular", i);
+        if (!frame_.has("specular_direct.r")) return {};
+        const Vec<T> light = rgb("specular_direct", i) + rgb("specular_indirect", i), color = rgb("specular_color", i);
+        return Vec<T>{light.x * color.x, light.y * color.y, light.z * color.z};
     }
 
     Vec<T> rgb(const std::string& layer, std::size_t i, const char* names = "rgb") const {

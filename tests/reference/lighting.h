@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -90,10 +91,18 @@ Arrival<T> arrival(const Light& light, Vec<T> p) {
     return {l, power * (t * t * (3 - 2 * t) / r2)};
 }
 
+/// The pictures that show what of a light is diffuse, and what is specular; "": none does.
+inline const std::string& diffuse_picture(const Light& light) {
+    return light.diffuse.empty() ? light.picture : light.diffuse;
+}
+inline const std::string& specular_picture(const Light& light) {
+    return light.specular.empty() ? light.picture : light.specular;
+}
+
 /// The different pictures of lights, and "".
 inline std::set<std::string> pictures(const Lighting& lighting) {
     std::set<std::string> all{""};
-    for (const Light& light : lighting.lights) all.insert(light.picture);
+    for (const Light& light : lighting.lights) all.insert({diffuse_picture(light), specular_picture(light)});
     return all;
 }
 
@@ -149,23 +158,37 @@ Vec<T> sky_light(const Lighting& lighting, Vec<T> n, Vec<T> base) {
     return sum * ((1 + dot(n, base)) / 2);
 }
 
-/// The sum over the lights of one picture (of "": those without) of (albedo / pi max(n.l, 0) + specular of the
-/// mirroring normal) * irradiance * terminator.
+/// What of lights one picture shows (of "": what none does): the sums of albedo / pi max(n.l, 0) and of the specular
+/// of the mirroring normal, each * irradiance * terminator.
 template <class T>
-Vec<T> lit_by(const std::string& picture, const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p,
-              const Surface<T>& s) {
+struct Lobes {
+    Vec<T> diffuse, specular;
+};
+template <class T>
+Lobes<T> lobes_by(const std::string& picture, const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p,
+                  const Surface<T>& s) {
     const auto times = [](Vec<T> a, Vec<T> b) { return Vec<T>{a.x * b.x, a.y * b.y, a.z * b.z}; };
-    Vec<T> sum;
+    Lobes<T> sum;
     const Vec<T> mirror = mirror_normal(n, base, v);
     for (const Light& light : lighting.lights) {
-        if (light.kind == LightKind::sky || light.picture != picture) continue;
+        if (light.kind == LightKind::sky) continue;
         const Arrival<T> a = arrival(light, p);
         const T nl = std::max(dot(n, a.direction), T(0)), ml = std::max(dot(mirror, a.direction), T(0));
         const T specular = ml > 0 ? ml * mirrored(mirror, v, a.direction, s) : T(0);
-        const Vec<T> reflected = s.albedo * (nl / std::numbers::pi_v<T>)+Vec<T>{specular, specular, specular};
-        sum = sum + times(reflected, a.irradiance) * terminator(n, base, a.direction);
+        const Vec<T> arrives = a.irradiance * terminator(n, base, a.direction);
+        if (diffuse_picture(light) == picture)
+            sum.diffuse = sum.diffuse + times(s.albedo * (nl / std::numbers::pi_v<T>), arrives);
+        if (specular_picture(light) == picture) sum.specular = sum.specular + arrives * specular;
     }
     return sum;
+}
+
+/// Both together.
+template <class T>
+Vec<T> lit_by(const std::string& picture, const Lighting& lighting, Vec<T> n, Vec<T> base, Vec<T> v, Vec<T> p,
+              const Surface<T>& s) {
+    const Lobes<T> both = lobes_by(picture, lighting, n, base, v, p, s);
+    return both.diffuse + both.specular;
 }
 
 /// albedo * sky + all lights. v is unit, p is the world position, base the normal of the surface that carries the
@@ -195,15 +218,21 @@ T relight_ratio(T lit_new, T lit_old, T max_ratio) {
 /// with the base normal.
 template <class T>
 struct Relit {
+    enum class Shows { both, diffuse, specular };
     struct Part {
         Vec<T> picture, now, old;
+        Shows shows = Shows::both;
     };
     Vec<T> beauty;
     std::vector<Part> own;  ///< lights with pictures
     Part others, sky;       ///< lights without (no picture), and the irradiance / pi of the sky
+    /// What the frame shows as specular of all light, and what is specular of lights without pictures, where it is
+    /// known apart; `others` is what is diffuse then.
+    std::optional<Part> mirrored{};
 
     /// Every light's own picture times its ratio; of the rest, what lights without pictures can give where the picture
-    /// shows that they reach it times theirs, and all else times the sky's.
+    /// shows that they reach it times theirs, and all else times the sky's. What is specular of the rest and known
+    /// apart: what the lights can give times theirs, and all else as it is.
     Vec<T> picture(const Lighting& lighting, Vec<T> albedo) const {
         const auto each = [](auto&& of) { return Vec<T>{of(&Vec<T>::x), of(&Vec<T>::y), of(&Vec<T>::z)}; };
         const auto times_ratio = [&](Vec<T> a, const Part& part) {
@@ -217,10 +246,14 @@ struct Relit {
         // What lights' pictures show beyond the beauty is not taken from it twice.
         const Vec<T> over = each([&](auto c) { return std::min(rest.*c, T(0)); });
         rest = rest - over, result = result + over;
+        const Vec<T> shine = mirrored ? specular_of(rest) : Vec<T>{};
+        rest = rest - shine;
         const auto sky_now = each([&](auto c) { return albedo.*c * sky.now.*c; });
         const auto sky_old = each([&](auto c) { return albedo.*c * sky.old.*c; });
         if (lighting.shadows == Shadows::ignored) {
             result = result + times_ratio(rest, {{}, others.now + sky_now, others.old + sky_old});
+            const Vec<T> around = sky.old * T(lighting.f0);
+            if (mirrored) result = result + times_ratio(shine, {{}, mirrored->now + around, mirrored->old + around});
         } else {
             const Vec<T> beyond = rest - sky_old;
             const T given = others.old.x + others.old.y + others.old.z;
@@ -232,8 +265,29 @@ struct Relit {
             const T reached = std::clamp(share, T(0), T(1));
             const Vec<T> lamps = each([&](auto c) { return std::min(others.old.*c * reached, rest.*c); });
             result = result + times_ratio(lamps, others) + times_ratio(rest - lamps, sky);
+            if (mirrored) {
+                const Vec<T> lit = each([&](auto c) { return std::min(mirrored->old.*c * reached, shine.*c); });
+                result = result + times_ratio(lit, *mirrored) + (shine - lit);
+            }
         }
         return each([&](auto c) { return std::max(result.*c, std::min(beauty.*c, T(0))); });
+    }
+
+private:
+    /// What of the rest of the picture is specular: all that is, less what pictures of lights show of it alone, and of
+    /// that as much as the rest is of what it and pictures of both show.
+    Vec<T> specular_of(Vec<T> rest) const {
+        Vec<T> all = mirrored->picture, both;
+        for (const Part& part : own)
+            for (T Vec<T>::*c : {&Vec<T>::x, &Vec<T>::y, &Vec<T>::z}) {
+                if (part.shows == Shows::specular) all.*c -= std::max(part.picture.*c, T(0));
+                if (part.shows == Shows::both) both.*c += std::max(part.picture.*c, T(0));
+            }
+        for (T Vec<T>::*c : {&Vec<T>::x, &Vec<T>::y, &Vec<T>::z}) {
+            if (both.*c > 0) all.*c *= rest.*c / (rest.*c + both.*c);
+            all.*c = std::clamp(all.*c, T(0), rest.*c);
+        }
+        return all;
     }
 };
 

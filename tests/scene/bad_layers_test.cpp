@@ -141,6 +141,10 @@ TEST_F(BadLayers, KeysWithoutEffect) {
     expect_problem_with("[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n", 5,
                         {"has no effect", "relight = \"lit\""});
     expect_problem_with("[lighting]\nrelight = \"lit\"\n", 6, {"relight without light"});
+    expect_problem_with(
+        "[lighting]\nrelight = \"ratio\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n"
+        "picture = \"sun\"\nspecular = \"sun_specular\"\n",
+        11, {"\"specular\" in [[light]] 1 is a part of what picture shows"});
 }
 
 TEST_F(BadLayers, KeysOfAnotherKind) {

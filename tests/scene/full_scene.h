@@ -120,6 +120,8 @@ outer_angle = 20
 [[light]]
 kind = "point"
 position = [4, 5, 6]
+diffuse = "lamp_diffuse"
+specular = "lamp_specular"
 
 [filter]
 taps = 8

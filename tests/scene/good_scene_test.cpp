@@ -39,6 +39,9 @@ TEST_F(GoodScene, LightingAndOutput) {
     EXPECT_EQ(lighting.lights[0].kind, LightKind::sun);
     EXPECT_EQ(lighting.lights[0].color, (Vec3{1, 0.5, 0.25}));
     EXPECT_EQ(lighting.lights[0].intensity, 3);
+    EXPECT_NE(lighting.lights[0].location.find(":"), std::string::npos) << lighting.lights[0].location;
+    EXPECT_EQ(lighting.lights[2].diffuse, "lamp_diffuse");
+    EXPECT_EQ(lighting.lights[2].specular, "lamp_specular");
     expect_near(lighting.lights[0].direction, {0, 0.6, -0.8});
     EXPECT_EQ(lighting.lights[1].kind, LightKind::spot);
     EXPECT_DOUBLE_EQ(lighting.lights[1].inner_angle, 10 * degree);
