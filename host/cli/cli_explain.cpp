@@ -19,6 +19,7 @@
 #include "run/bin_report.h"
 #include "run/open_frame.h"
 #include "run/pass_impl.h"
+#include "tools/frame_lights.h"
 #include "wrinkle/error.h"
 
 #include "layout.h"
@@ -152,6 +153,7 @@ void explain(const ExplainArguments& arguments) {
     if (arguments.max_error) scene.budget.max_error = arguments.max_error;
     check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
+    if (wants_lights(scene)) scene = with_lights(scene, lights_of_frame(scene, number));
     GBufferReader reader = open_frame(scene, number);
     const FrameCamera camera = camera_of_frame(scene, reader, number, CameraCheck::none);
     const Frame frame = frame_of(scene, reader, camera);

@@ -71,6 +71,8 @@ void print_table(const RenderReport& report) {
                report.frames == 1 ? "" : "s", megapixels, report.layers, report.layers == 1 ? "" : "s",
                report.device.name, report.device.lanes);
     for (const std::string& camera : report.cameras) fmt::print("camera: {}\n", camera);
+    if (!report.lights.empty())
+        fmt::print("lights, fitted to the picture as the scene names none: {}\n", report.lights);
     fmt::print("\n  {:<22}{:>10}\n", "phase", "seconds");
     fmt::print("  {:<22}{:>10.3f}\n", "read", report.read);
     fmt::print("  {:<22}{:>10.3f}\n", "upload (textures)", report.upload);
@@ -106,6 +108,7 @@ void print_json(const RenderReport& report) {
                                                 {"kernel_ns_per_pixel", report.kernel_ns_per_pixel},
                                                 {"peak_memory_bytes", report.peak_memory},
                                                 {"cameras", report.cameras},
+                                                {"fitted_lights", report.lights},
                                                 {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
                                                 {"warnings", report.warnings},
                                                 {"files", files}}));

@@ -17,5 +17,6 @@ void add_bake(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_area(CLI::App& app);
+void add_fit_lights(CLI::App& app);
 
 }  // namespace wrinkle::cli

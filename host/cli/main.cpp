@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
         "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
         "  wrinkle scatter scene.toml -o decals.csv    place decals on a frame at random\n"
+        "  wrinkle fit-lights scene.toml               estimate the lights of a frame from its picture\n"
         "  wrinkle eval resolve < in.csv > out.csv     one kernel function over rows of numbers (wrinkle eval --list)\n"
         "  wrinkle figures data/figures/*.toml         pictures side by side that show what a layer does\n"
         "  wrinkle devices                             where it can run\n"
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_bench(app);
     wrinkle::cli::add_tune(app);
     wrinkle::cli::add_area(app);
+    wrinkle::cli::add_fit_lights(app);
     wrinkle::cli::add_limit_options(app);
     try {
         app.parse(reversed_arguments(argc, argv));

@@ -66,6 +66,8 @@ void bind_scenes(nb::module_& module) {
         .def_ro("kernel_ns_per_pixel", &RenderReport::kernel_ns_per_pixel)
         .def_ro("files", &RenderReport::files, "what was written")
         .def_ro("cameras", &RenderReport::cameras, "a line a frame: where it came from, and its residual")
+        .def_ro("fitted_lights", &RenderReport::lights,
+                "what lights were fitted to the picture, where the scene names none")
         .def_ro("warnings", &RenderReport::warnings);
     module.def(
         "run",

@@ -45,9 +45,14 @@ void read_lights(Table& root, Lighting& out) {
         root.document().problems.add(lights.front().line(),
                                      "[[light]] has no effect while relighting is off; set relight = \"lit\" or "
                                      "\"ratio\" in [lighting], or remove the lights");
-    if (out.relight != Relight::off && lights.empty() && out.ambient == Vec3{})
+    // A file's lights may be left to those who open its frame: they are fitted to the picture.
+    const bool fitted = out.relight == Relight::ratio && !root.visits();
+    if (out.relight != Relight::off && lights.empty() && out.ambient == Vec3{} && !fitted)
         root.document().problems.add(
-            line, "relight without light: add a [[light]], or set ambient in [lighting], or set relight = \"off\"");
+            line,
+            fmt::format("relight without light: add a [[light]]{}, or set ambient in [lighting], or set relight = "
+                        "\"off\"",
+                        out.relight == Relight::ratio ? " (\"wrinkle fit-lights\" estimates those of a frame)" : ""));
 }
 
 void finish(Table& root) {

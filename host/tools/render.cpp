@@ -11,6 +11,7 @@
 #include "run/condition.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
+#include "tools/frame_lights.h"
 #include "tools/frame_warnings.h"
 #include "wrinkle/error.h"
 
@@ -66,10 +67,17 @@ PassOptions options_of(const PrecisionChoice& choice) {
     return options;
 }
 
-RenderReport render_frames(const Scene& scene, const RenderOptions& options) {
+RenderReport render_frames(const Scene& given, const RenderOptions& options) {
     RenderReport report;
     PhaseClock clock;
     const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
+    std::optional<Scene> lit;
+    if (wants_lights(given)) {  // those of the first frame for all: lights that are fitted anew would flicker
+        const FrameLights fitted = clock.measure(PhaseClock::read, [&] { return lights_of_frame(given, frames[0]); });
+        report.lights = summary(fitted);
+        lit = with_lights(given, fitted);
+    }
+    const Scene& scene = lit ? *lit : given;
     Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
     if (options.lanes != 0) device.info.lanes = options.lanes;
     TextureStore store(device);

@@ -34,6 +34,7 @@ struct RenderReport {
     std::uint64_t peak_memory = 0;  ///< bytes
     std::vector<std::filesystem::path> files;
     std::vector<std::string> cameras;  ///< a line a frame: origin and residual
+    std::string lights;                ///< of those that were fitted to the picture; empty: none were
     std::optional<BudgetReport> budget;
     std::vector<std::string> warnings;  ///< of frames whose passes hold too little, and masks that no pixel matches
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tests/run/run_frame.h"
+#include "tools/frame_lights.h"
 
 namespace wrinkle::test {
 namespace {
@@ -41,7 +42,13 @@ TEST(Relit, StandsCloserToTheRerenderThanTheUnbumpedPicture) {
                              l.ambient = {0.3, 0.33, 0.4};
                          }},
                         {"shadows read", 3.2, [](Lighting& l) { l.shadows = Shadows::read; }},
-                        {"the sun's picture", 3.2, [](Lighting& l) { l.lights[0].picture = "Combined_sun"; }}};
+                        {"the sun's picture", 3.2, [](Lighting& l) { l.lights[0].picture = "Combined_sun"; }},
+                        {"fitted", 3.2, [](Lighting& l) {
+                             Scene bare = load_scene(data_folder / "../bench/picture/relit.toml");
+                             bare.lighting.lights.clear();
+                             EXPECT_TRUE(wants_lights(bare));
+                             l = with_lights(bare, lights_of_frame(bare, 0)).lighting;
+                         }}};
     for (const Way& way : ways) {
         Scene own = scene;
         way.change(own.lighting);
@@ -72,13 +79,77 @@ TEST(Relit, WhereALightsPictureIsDarkNothingIsBumped) {
     const Pixels got = evaluate_on(frame, scene);
     for (std::size_t i = 0; i < frame.count(); ++i)
         EXPECT_EQ(got.at("lit.g")[i] == 0.5f, i % 2 == 0 || i == 1) << i << ": " << got.at("lit.g")[i];
-    scene.lighting.lights[0].picture = "Combined_sum";
+    scene.lighting.lights[0].picture = "Combined_sum", scene.lighting.lights[0].location = "scene.toml:7";
     try {
         evaluate_on(frame, scene);
         ADD_FAILURE() << "a picture that is not there";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("nearest: \"Combined_sun\""), std::string::npos) << error.what();
+        const std::string text = error.what();
+        EXPECT_EQ(text.find("scene.toml:7: light 1 has picture = \"Combined_sum\"; "), 0u) << text;
+        EXPECT_NE(text.find("nearest: \"Combined_sun\""), std::string::npos) << text;
     }
+}
+
+/// A tilted plane with passes of all kinds, each different from pixel to pixel.
+HostFrame passes_frame(const std::vector<std::string>& layers) {
+    HostFrame frame(plane_frame(test_camera(), {19, 5}, normalize(V{0.1, -0.2, 1})), test_camera());
+    float phase = 0;
+    for (const std::string& layer : layers)
+        for (const char color : {'r', 'g', 'b'}) {
+            const bool role = !layer.starts_with("channel:");
+            std::vector<float>& plane =
+                frame.add(fmt::format("{}.{}", layer, role ? color : static_cast<char>(std::toupper(color))));
+            const float size = layer == "beauty" ? 0.8f : 0.25f;
+            phase += 1;
+            for (std::size_t i = 0; i < plane.size(); ++i)
+                plane[i] = size * (1.1f + std::sin(phase * 1.7f + 0.37f * static_cast<float>(i)));
+        }
+    return frame;
+}
+
+TEST(Relit, LobesGoEachByTheirOwnRatio) {
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].bump = ConstantLayer{{0.3, -0.2, 0}};
+    scene.lighting.relight = Relight::ratio;
+    scene.lighting.roughness = 0.4;
+    Light sky{.kind = LightKind::sky};
+    sky.zenith = {0.2, 0.3, 0.5}, sky.horizon = {0.4, 0.4, 0.4};
+    scene.lighting.lights = {Light{.intensity = 2, .direction = {-0.6, 0, -0.8}}, sky,
+                             Light{.direction = {0.5, 0.2, -0.8}, .picture = "lamp"},
+                             Light{.direction = {0.1, 0.6, -0.8}, .diffuse = "matt", .specular = "gloss"},
+                             Light{.direction = {0.2, -0.6, -0.8}, .specular = "shine"}};
+    const std::vector<std::string> always{"beauty",       "albedo",        "channel:lamp",
+                                          "channel:matt", "channel:gloss", "channel:shine"};
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"specular"}, {"specular_direct", "specular_indirect", "specular_color"}})
+        for (const Shadows shadows : {Shadows::ignored, Shadows::read}) {
+            std::vector<std::string> layers = always;
+            layers.insert(layers.end(), more.begin(), more.end());
+            const HostFrame frame = passes_frame(layers);
+            scene.lighting.shadows = shadows;
+            const Pixels got = evaluate_on(frame, scene);
+            const Truth truth(frame, scene);
+            double worst = 0;
+            for (std::size_t i = 0; i < frame.count(); ++i)
+                worst = std::max(worst, length(vec_at(got, "lit", i) - truth.lit[i]) / length(truth.lit[i]));
+            fmt::print("{} specular passes, shadows {}: {:.1e}\n", more.size(),
+                       shadows == Shadows::read ? "read" : "ignored", worst);
+            EXPECT_LE(worst, 5e-6);
+        }
+}
+
+TEST(Relit, WhatMirrorsTheSkyStaysAsItIs) {
+    HostFrame frame = passes_frame({"beauty", "albedo"});
+    for (const char color : {'r', 'g', 'b'})
+        frame.add(std::string("specular.") + color) = frame.pixels.at(std::string("beauty.") + color);
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].bump = ConstantLayer{{0.5, 0, 0}};
+    scene.lighting.relight = Relight::ratio;
+    scene.lighting.ambient = {1, 1, 1};
+    const Pixels got = evaluate_on(frame, scene);
+    for (std::size_t i = 0; i < frame.count(); ++i) EXPECT_EQ(got.at("lit.g")[i], frame.pixels.at("beauty.g")[i]) << i;
 }
 
 TEST(Relit, MetalStaysAsItIs) {

@@ -1,0 +1,219 @@
+#include "tools/frame_lights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "base/vec.h"
+#include "run/open_frame.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle {
+namespace {
+
+constexpr std::uint32_t kRows = 64;  // read at a time
+constexpr int kCells = 12;           // of normals along each of two axes of the octahedron
+constexpr std::size_t kMost = 4000;  // pixels, together
+constexpr float kDark = 0.02f;       // an albedo below this divides noise, and may be metal's
+constexpr float kMetallic = 0.1f;
+
+/// The cell of a unit normal on the octahedron, unfolded into a square.
+int cell_of(const Vec3& n) {
+    const double sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
+    double x = n[0] / sum, y = n[1] / sum;
+    if (n[2] < 0) {
+        const double fold = std::copysign(1 - std::abs(y), x);
+        y = std::copysign(1 - std::abs(x), y), x = fold;
+    }
+    const auto place = [](double v) { return std::clamp(static_cast<int>((v + 1) / 2 * kCells), 0, kCells - 1); };
+    return place(y) * kCells + place(x);
+}
+
+/// Draws as many from every cell, each surface of a cell with the same chance, by a seed of its own.
+class EvenDraw {
+public:
+    void add(const SeenSurface& surface) {
+        Cell& cell = cells_[cell_of(surface.normal)];
+        ++cell.seen;
+        if (cell.drawn.size() < kOfCell) return cell.drawn.push_back(surface);
+        if (const std::size_t at = std::uniform_int_distribution<std::size_t>(0, cell.seen - 1)(random_); at < kOfCell)
+            cell.drawn[at] = surface;
+    }
+    /// In an order without a pattern.
+    std::vector<SeenSurface> take() {
+        std::vector<SeenSurface> all;
+        const std::size_t each = std::clamp<std::size_t>(kMost / std::max<std::size_t>(cells_.size(), 1), 1, kOfCell);
+        for (auto& [number, cell] : cells_) {
+            std::ranges::shuffle(cell.drawn, random_);
+            const std::size_t count = std::min(cell.drawn.size(), each);
+            all.insert(all.end(), cell.drawn.begin(), cell.drawn.begin() + static_cast<std::ptrdiff_t>(count));
+        }
+        std::ranges::shuffle(all, random_);
+        return all;
+    }
+
+private:
+    static constexpr std::size_t kOfCell = 200;
+    struct Cell {
+        std::size_t seen = 0;
+        std::vector<SeenSurface> drawn;
+    };
+    std::map<int, Cell> cells_;
+    std::mt19937_64 random_{1};
+};
+
+/// The planes that a fit reads, those of some rows.
+class ReadRows {
+public:
+    ReadRows(const GBufferReader& reader, const std::vector<std::string>& wanted) : reader_(reader) {
+        for (const std::string& layer : wanted)
+            for (const std::string& plane : reader.planes())
+                if (plane == layer || plane.starts_with(layer + ".")) names_.push_back(plane);
+        for (const std::string& name : names_) planes_[name];
+    }
+
+    bool has(const std::string& plane) const { return planes_.contains(plane); }
+
+    std::size_t read(std::uint32_t first, std::uint32_t end) {
+        const std::size_t count = std::size_t{end - first} * reader_.size().width;
+        std::vector<float*> into;
+        for (const std::string& name : names_) {
+            planes_[name].resize(count);
+            into.push_back(planes_[name].data());
+        }
+        reader_.read_rows(first, end, names_, into);
+        return count;
+    }
+
+    float at(const std::string& plane, std::size_t i) const { return planes_.at(plane)[i]; }
+    Vec3 vec(const std::string& layer, const char* parts, std::size_t i) const {
+        const auto part = [&](int k) { return static_cast<double>(at(layer + "." + parts[k], i)); };
+        return {part(0), part(1), part(2)};
+    }
+    /// A part of the picture: by itself, or as direct and indirect light times a colour; black where none tells.
+    Vec3 part(const std::string& name, std::size_t i) const {
+        if (has(name + ".r")) return vec(name, "rgb", i);
+        if (!has_parts(name)) return {};
+        const Vec3 direct = vec(name + "_direct", "rgb", i), indirect = vec(name + "_indirect", "rgb", i),
+                   color = vec(name + "_color", "rgb", i);
+        Vec3 out{};
+        for (std::size_t c = 0; c < 3; ++c) out[c] = (direct[c] + indirect[c]) * color[c];
+        return out;
+    }
+    bool has_parts(const std::string& name) const {
+        return has(name + "_direct.r") && has(name + "_indirect.r") && has(name + "_color.r");
+    }
+
+private:
+    const GBufferReader& reader_;
+    std::vector<std::string> names_;
+    std::map<std::string, std::vector<float>> planes_;
+};
+
+/// What a pixel shows as a surface; nothing where it shows none that tells of lights.
+std::optional<SeenSurface> surface_at(const ReadRows& rows, std::size_t i, const Vec3& albedo_of_scene) {
+    SeenSurface out{rows.vec("normal", "xyz", i), rows.vec("beauty", "rgb", i)};
+    const double length = std::sqrt(dot(out.normal, out.normal));
+    if (!(length > 0.5) || !std::isfinite(length)) return {};  // filtered away, or background
+    for (double& x : out.normal) x /= length;
+    if (rows.has("metallic") && !(rows.at("metallic", i) < kMetallic)) return {};
+    const Vec3 albedo = rows.has("albedo.r") ? rows.vec("albedo", "rgb", i) : albedo_of_scene;
+    std::array<Vec3, 3> others{};
+    std::size_t k = 0;
+    for (const char* part : {"emission", "transmission", "specular"}) others[k++] = rows.part(part, i);
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (!(albedo[c] > kDark)) return {};
+        for (const Vec3& other : others) out.radiance[c] -= other[c];
+        out.radiance[c] = std::max(out.radiance[c], 0.0) / albedo[c];
+        if (!std::isfinite(out.radiance[c])) return {};
+    }
+    return out;
+}
+
+/// How far numbers of a fit can be trusted, by what it leaves unexplained.
+const char* trust(double median) {
+    return median < 0.08  ? "they explain the picture well"
+           : median < 0.2 ? "they explain most of the picture"
+                          : "they explain the picture badly: name the lights yourself where you can";
+}
+
+}  // namespace
+
+FrameLights lights_of_frame(const Scene& scene, int frame) {
+    GBufferReader reader = open_frame(scene, frame);
+    for (const char* role : {"normal", "beauty"})
+        if (!reader.has_role(role))
+            throw Error(fmt::format("{}: lights are fitted by the frame's picture and normals; it has no {}",
+                                    reader.path().string(), role));
+    camera_of_frame(scene, reader, frame);  // turns normals that are in its space
+    ReadRows rows(reader, {"normal", "beauty", "albedo", "metallic", "emission", "transmission", "transmission_direct",
+                           "transmission_indirect", "transmission_color", "specular", "specular_direct",
+                           "specular_indirect", "specular_color"});
+    EvenDraw draw;
+    for (std::uint32_t first = 0; first < reader.size().height; first += kRows) {
+        const std::size_t count = rows.read(first, std::min(first + kRows, reader.size().height));
+        for (std::size_t i = 0; i < count; ++i)
+            if (const auto surface = surface_at(rows, i, scene.lighting.albedo)) draw.add(*surface);
+    }
+    const std::vector<SeenSurface> surfaces = draw.take();
+    try {
+        return {fit_lights(surfaces), rows.has("albedo.r"), rows.has("specular.r") || rows.has_parts("specular")};
+    } catch (const Error& error) { throw Error(fmt::format("{}: {}", reader.path().string(), error.what())); }
+}
+
+bool wants_lights(const Scene& scene) {
+    const Lighting& lighting = scene.lighting;
+    return lighting.relight == Relight::ratio && lighting.lights.empty() && lighting.ambient == Vec3{};
+}
+
+Scene with_lights(Scene scene, const FrameLights& lights) {
+    scene.lighting.lights = lights.fit.lights;
+    scene.lighting.shadows = Shadows::read;
+    return scene;
+}
+
+std::string summary(const FrameLights& lights) {
+    const LightFit& fit = lights.fit;
+    std::string suns;
+    for (std::size_t i = 1; i < fit.lights.size(); ++i) {
+        const Vec3& d = fit.lights[i].direction;
+        suns += fmt::format(", a sun that travels along [{:.2f}, {:.2f}, {:.2f}] with {:.3g} W/m2", d[0], d[1], d[2],
+                            fit.lights[i].intensity);
+    }
+    return fmt::format("a sky{} ({:.0f}% of the radiance unexplained, median; 90%: {:.0f}%{}); {}", suns,
+                       100 * fit.median, 100 * fit.p90,
+                       lights.albedo ? "" : "; the frame has no albedo, so colours of surfaces count as light's",
+                       trust(fit.median));
+}
+
+std::string lights_as_toml(const FrameLights& lights) {
+    const LightFit& fit = lights.fit;
+    const auto vec = [](const Vec3& v) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v[0], v[1], v[2]); };
+    std::string text = fmt::format(
+        "# Fitted by wrinkle to {} pixels: {}.\n"
+        "# Unexplained: {:.1f}% of the radiance over the albedo (median), {:.0f}% (90%).{}\n"
+        "# They are in the picture's units: set shadows = \"read\" in [lighting].\n",
+        fit.surfaces, trust(fit.median), 100 * fit.median, 100 * fit.p90,
+        lights.albedo ? "" : " Without an albedo, colours of surfaces count as light's.");
+    for (std::size_t i = 0; i < fit.lights.size(); ++i) {
+        const Light& light = fit.lights[i];
+        text += "\n[[light]]\n";
+        if (light.kind == LightKind::sky) {
+            text += fmt::format("kind = \"sky\"\nup = {}\nzenith = {}\nhorizon = {}\nground = {}\n", vec(light.up),
+                                vec(light.zenith), vec(light.horizon), vec(light.ground));
+            continue;
+        }
+        text += fmt::format(
+            "kind = \"sun\"\ndirection = {}  # to about {:.2g} degrees; {:.0f}% of what faces it is in shadow\n"
+            "color = {}\nintensity = {:.4g}  # W/m2\n",
+            vec(light.direction), fit.loose_degrees[i - 1], 100 * fit.shadowed[i - 1], vec(light.color),
+            light.intensity);
+    }
+    return text;
+}
+
+}  // namespace wrinkle

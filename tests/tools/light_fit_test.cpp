@@ -1,0 +1,149 @@
+// Lights that are known, seen on surfaces with shadows, noise and outliers, and found again.
+#include "tools/light_fit.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/reference/lighting.h"
+#include "tools/frame_lights.h"
+#include "wrinkle/error.h"
+
+namespace wrinkle::test {
+namespace {
+
+using reference::real;
+using V = reference::Vec<real>;
+
+/// Surfaces that face every way, or upwards only, under the lights of a scene by the reference: white, without bumps.
+struct Seen {
+    std::vector<Light> lights;
+    double shadowed = 0.3;   ///< share of the surfaces that no sun reaches
+    double noise = 0.03;     ///< of the radiance
+    double outliers = 0.08;  ///< share of the surfaces that show something else
+    bool upwards = false;
+
+    std::vector<SeenSurface> surfaces(std::size_t count) const {
+        std::mt19937 random(7);
+        std::normal_distribution<double> normal;
+        std::uniform_real_distribution<double> uniform;
+        Lighting all, sky;
+        all.lights = lights;
+        for (const Light& light : lights)
+            if (light.kind == LightKind::sky) sky.lights.push_back(light);
+        const reference::Surface<real> white{{1, 1, 1}, 1, 0};
+        std::vector<SeenSurface> out;
+        while (out.size() < count) {
+            V n = normalize(V{normal(random), normal(random), normal(random)});
+            if (upwards) n.z = std::abs(n.z);
+            const bool dark = uniform(random) < shadowed;
+            // White, f0 = 0, seen from above: the grazing specular is none where the view is the normal.
+            V shown = reference::lit(dark ? sky : all, n, n, n, V{}, white);
+            const real glow = uniform(random) < outliers ? 2 * uniform(random) : 0;
+            shown = shown * real(1 + noise * normal(random)) + V{glow, glow, glow};
+            out.push_back(
+                {{double(n.x), double(n.y), double(n.z)}, {double(shown.x), double(shown.y), double(shown.z)}});
+        }
+        return out;
+    }
+};
+
+Light two_colours() {
+    Light sky{.kind = LightKind::sky};
+    sky.zenith = {0.2, 0.35, 0.7}, sky.horizon = {0.6, 0.6, 0.55}, sky.ground = {0.2, 0.15, 0.1};
+    return sky;
+}
+
+Light sun(Vec3 direction, double intensity, Vec3 color = {1, 0.9, 0.8}) {
+    return Light{.color = color, .intensity = intensity, .direction = direction};
+}
+
+double degrees_between(const Vec3& a, const Vec3& b) {
+    return reference::angle_degrees(V{a[0], a[1], a[2]}, V{b[0], b[1], b[2]});
+}
+
+/// The largest difference of what two skies give to any surface, as a share of the largest that one gives.
+double sky_error(const Light& got, const Light& wanted) {
+    Lighting a, b;
+    a.lights = {got}, b.lights = {wanted};
+    double worst = 0, most = 0;
+    for (int i = 0; i < 200; ++i) {
+        const real z = 1 - (2 * i + 1) / 200.0L, r = std::sqrt(1 - z * z);
+        const V n{r * std::cos(2.4L * i), r * std::sin(2.4L * i), z};
+        const V x = reference::sky_light(a, n, n), y = reference::sky_light(b, n, n);
+        worst = std::max(worst, double(length(x - y))), most = std::max(most, double(length(y)));
+    }
+    return worst / most;
+}
+
+TEST(LightFit, FindsASunInItsShadowsAndTheSky) {
+    for (const bool upwards : {false, true}) {
+        const Seen seen{.lights = {two_colours(), sun({0.7, 0.48, -0.53}, 3.4)}, .upwards = upwards};
+        const LightFit fit = fit_lights(seen.surfaces(3000));
+        ASSERT_EQ(fit.lights.size(), 2u);
+        const double off = degrees_between(fit.lights[1].direction, seen.lights[1].direction);
+        fmt::print(
+            "sun {:.2f} degrees off, loose by {}, intensity {:.3f}, shadowed {:.2f}; sky {:.3f}; median {:.3f}\n", off,
+            fit.loose_degrees[0], fit.lights[1].intensity, fit.shadowed[0], sky_error(fit.lights[0], seen.lights[0]),
+            fit.median);
+        EXPECT_LE(off, 2);
+        EXPECT_NEAR(fit.lights[1].intensity, 3.4, 0.17);
+        EXPECT_NEAR(fit.shadowed[0], 0.3, 0.08);
+        EXPECT_LE(sky_error(fit.lights[0], seen.lights[0]), upwards ? 0.4 : 0.1) << "nothing shows the ground";
+        EXPECT_LE(fit.median, 0.06);
+        EXPECT_EQ(fit.surfaces, 3000u);
+    }
+}
+
+TEST(LightFit, FindsTwoSuns) {
+    const Seen seen{.lights = {two_colours(), sun({0.7, 0.48, -0.53}, 3), sun({-0.8, 0.3, -0.4}, 2, {0.5, 0.7, 1})}};
+    const LightFit fit = fit_lights(seen.surfaces(3000));
+    ASSERT_EQ(fit.lights.size(), 3u);
+    for (const std::size_t i : {1u, 2u})
+        EXPECT_LE(degrees_between(fit.lights[i].direction, seen.lights[i].direction), 4) << i;
+    EXPECT_GE(fit.lights[1].intensity, fit.lights[2].intensity) << "the strongest first";
+}
+
+TEST(LightFit, ADullDayHasNoSun) {
+    const Seen seen{.lights = {two_colours()}};
+    const LightFit fit = fit_lights(seen.surfaces(2000));
+    EXPECT_EQ(fit.lights.size(), 1u);
+    EXPECT_LE(sky_error(fit.lights[0], seen.lights[0]), 0.1);
+}
+
+TEST(LightFit, RefusesWhatTellsNothing) {
+    const Seen seen{.lights = {two_colours()}};
+    std::vector<SeenSurface> all = seen.surfaces(1000);
+    const auto refusal = [](const std::vector<SeenSurface>& surfaces) -> std::string {
+        try {
+            fit_lights(surfaces);
+        } catch (const Error& error) { return error.what(); }
+        return "nothing was refused";
+    };
+    EXPECT_NE(refusal({all.begin(), all.begin() + 100}).find("100 pixels"), std::string::npos);
+    std::vector<SeenSurface> flat = all, black = all;
+    for (SeenSurface& s : flat) s.normal = {0, 0, 1};
+    for (SeenSurface& s : black) s.radiance = {};
+    EXPECT_NE(refusal(flat).find("face the same way"), std::string::npos);
+    EXPECT_NE(refusal(black).find("black"), std::string::npos);
+}
+
+TEST(FrameLights, OfARenderedFrameAreThoseItWasRenderedWith) {
+    const Scene scene = load_scene(std::filesystem::path(WRINKLE_SOURCE_DIR) / "bench/picture/relit.toml");
+    const FrameLights lights = lights_of_frame(scene, 0);
+    fmt::print("{}\n{}", summary(lights), lights_as_toml(lights));
+    ASSERT_EQ(lights.fit.lights.size(), 2u);
+    EXPECT_TRUE(lights.albedo);
+    EXPECT_LE(degrees_between(lights.fit.lights[1].direction, scene.lighting.lights[0].direction), 6);
+    EXPECT_NEAR(lights.fit.lights[1].intensity, 3.4, 0.7);
+    const Scene lit = with_lights(scene, lights);
+    EXPECT_EQ(lit.lighting.shadows, Shadows::read);
+    EXPECT_EQ(lit.lighting.lights.size(), 2u);
+    EXPECT_FALSE(wants_lights(scene));
+}
+
+}  // namespace
+}  // namespace wrinkle::test
