@@ -68,10 +68,10 @@ void print_text(const GBufferInfo& info, const std::vector<std::string>& of_scen
         fmt::print("  measured: {:.0f}% of the rows, spread over the frame\n",
                    100.0 * static_cast<double>(info.measured) / static_cast<double>(info.pixels()));
     fmt::print("\n");
-    fmt::print("  {:<12}{:<34}{:>13}{:>13}{:>12}\n", "role", "channels", "least", "largest", "invalid");
+    fmt::print("  {:<22}{:<34}{:>13}{:>13}{:>12}\n", "role", "channels", "least", "largest", "invalid");
     for (const RoleStats& role : info.stats)
         fmt::print(
-            "  {:<12}{:<34}{:>13.5g}{:>13.5g}{:>11.2f}%\n", role.role,
+            "  {:<22}{:<34}{:>13.5g}{:>13.5g}{:>11.2f}%\n", role.role,
             role.channels.empty() ? ""
                                   : fmt::format("{}{}", role.channels.front(), role.channels.size() > 1 ? " ..." : ""),
             role.min, role.max,
