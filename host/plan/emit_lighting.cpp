@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plan/geometry_text.h"
 #include "plan/light_pictures.h"
 #include "plan/mask_text.h"
