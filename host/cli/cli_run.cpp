@@ -13,6 +13,7 @@
 #include "cli/json_text.h"
 #include "cli/options.h"
 #include "io/threads.h"
+#include "layers/kinds.h"
 #include "tools/render.h"
 #include "wrinkle/error.h"
 
@@ -23,6 +24,7 @@ namespace {
 struct RunArguments {
     std::filesystem::path scene;
     std::string directory = "out", frames, device;
+    std::vector<std::string> set;
     int threads = 0, repeat = 1, lanes = 0;
     bool quiet = false, json = false;
     std::optional<double> max_error;
@@ -114,10 +116,16 @@ void print_json(const RenderReport& report) {
 void run(const RunArguments& arguments) {
     RenderOptions options;
     if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-    Scene scene = load_scene(arguments.scene);
-    if (arguments.max_error) scene.budget.max_error = arguments.max_error;
-    if (arguments.sample) scene.budget.sample = *arguments.sample;
-    if (arguments.seed) scene.budget.seed = *arguments.seed;
+    const auto load = [&arguments](std::optional<int> frame) {
+        scene::SceneFile file = load_scene_file(arguments.scene, {.set = arguments.set, .frame = frame});
+        if (arguments.max_error) file.scene.budget.max_error = arguments.max_error;
+        if (arguments.sample) file.scene.budget.sample = *arguments.sample;
+        if (arguments.seed) file.scene.budget.seed = *arguments.seed;
+        return file;
+    };
+    const scene::SceneFile file =
+        load(options.frames.empty() ? std::nullopt : std::optional<int>(options.frames.front()));
+    const Scene& scene = file.scene;
     if ((arguments.sample || arguments.seed) && !scene.budget.max_error)
         throw Error("--sample and --seed measure an error budget; give --max-error, or max_error in the scene");
     if (arguments.precision && scene.budget.max_error)
@@ -127,9 +135,16 @@ void run(const RunArguments& arguments) {
     options.device = arguments.device;
     options.lanes = arguments.lanes;
     options.repeat = arguments.repeat;
-    const auto files = frame_files(scene.gbuffer, scene.camera);
+    const auto files = frame_files(file);
     check_frame_pattern(files, "--frames", !options.frames.empty());
     check_frames_exist(files, options.frames);
+    check_output_name(scene.output.name, options.frames);
+    if (!file.frame_files.empty()) {
+        if (arguments.scene == "-")
+            throw Error("a scene whose textures or tables differ from frame to frame is read again for each; give a "
+                        "file in place of standard input");
+        options.scene_of_frame = [&load](int frame) { return load(frame).scene; };
+    }
     if (arguments.threads > 0) {
         // PoCL reads it when it starts.
         setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);
@@ -156,6 +171,7 @@ void add_run(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--frames", arguments->frames, "frame numbers: 7, 1-10, 1-100x5, or several with commas")
         ->type_name("LIST");
+    add_set_option(*command, arguments->set);
     add_device_option(*command, arguments->device);
     add_lanes_option(*command, arguments->lanes);
     command->add_option("--threads", arguments->threads, "threads for files and for CPU kernels; 0: all cores")

@@ -39,6 +39,11 @@ bool keeps_bits(const std::string& channel, const ImageOptions& options) {
     return options.full.contains(channel) || contains_ignoring_case(channel, "crypto");
 }
 
+const char* name_of(Compression compression) {
+    const char* const names[] = {"zip", "zips", "dwaa", "none"};
+    return names[static_cast<int>(compression)];
+}
+
 OIIO::ImageSpec exr_spec(Size size, const std::vector<std::string>& channels, const ImageOptions& options) {
     OIIO::ImageSpec spec(static_cast<int>(size.width), static_cast<int>(size.height), static_cast<int>(channels.size()),
                          options.half ? OIIO::TypeHalf : OIIO::TypeFloat);
@@ -57,7 +62,7 @@ OIIO::ImageSpec exr_spec(Size size, const std::vector<std::string>& channels, co
     for (const auto& attribute : options.metadata.data().list) {
         if (!describes_storage(attribute.name().string())) spec.extra_attribs.add_or_replace(attribute);
     }
-    spec.attribute("compression", "zip");
+    spec.attribute("compression", name_of(options.compression));
     return spec;
 }
 
@@ -85,7 +90,8 @@ struct ImageWriter::Impl {
         else
             stored = {0, 0, size};
         auto spec = png ? OIIO::ImageSpec(static_cast<int>(stored.size.width), static_cast<int>(stored.size.height),
-                                          static_cast<int>(names.size()), OIIO::TypeUInt8)
+                                          static_cast<int>(names.size()),
+                                          options.png_bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8)
                         : exr_spec(size, names, options);
         file_row = spec.y;
         if (png && options.png == PngEncoding::srgb) spec.attribute("oiio:ColorSpace", "sRGB");

@@ -14,6 +14,8 @@ namespace wrinkle {
 struct RenderOptions {
     std::filesystem::path directory = "out";
     std::vector<int> frames;                    ///< empty: the scene's file as it is
+    /// The scene of a frame, where textures, tables or volumes differ from frame to frame.
+    std::function<Scene(int frame)> scene_of_frame;
     std::string device;                         ///< as Device::open takes it
     int lanes = 0;                              ///< pixels a work-item: 1, 4, 8 or 16; 0: the device's choice
     int repeat = 1;                             ///< enqueue the kernels this often, to time them
