@@ -15,6 +15,7 @@
 #include "io/descriptor_proxy.h"
 #include "io/image_open.h"
 #include "io/metadata_data.h"
+#include "io/provenance.h"
 #include "io/reason.h"
 #include "wrinkle/error.h"
 
@@ -94,6 +95,7 @@ struct ImageWriter::Impl {
                                           options.png_bits == 16 ? OIIO::TypeUInt16 : OIIO::TypeUInt8)
                         : exr_spec(size, names, options);
         file_row = spec.y;
+        if (!options.provenance.empty()) spec.attribute(io::kProvenance, options.provenance);
         if (png && options.png == PngEncoding::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
         for (const auto& name : names) {
             halves.push_back(!png && options.half && !keeps_bits(name, options) && !options.whole.contains(name));

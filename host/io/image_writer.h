@@ -34,6 +34,7 @@ struct ImageOptions {
     /// Where the pixels lie; nothing: they are the picture. EXR files hold all of them, PNG the display window.
     std::optional<FrameWindow> window{};
     Metadata metadata;  ///< EXR: attributes for the header; those that say how a file is stored are left out
+    std::string provenance{};  ///< a hash of all that goes into the picture (io/provenance.h); empty: none is written
     PngEncoding png = PngEncoding::srgb;
     int png_bits = 8;     ///< of a channel: 8 or 16
     double exposure = 0;  ///< stops; PngEncoding::srgb

@@ -29,7 +29,7 @@ std::string channel_name(const std::string& plane, ChannelNames names) {
     return name;
 }
 
-Metadata provenance(const Scene& scene, const GBufferReader& reader, bool passthrough) {
+Metadata header_of(const Scene& scene, const GBufferReader& reader, bool passthrough) {
     Metadata metadata = passthrough ? reader.metadata() : Metadata();
     metadata.set("Software", "wrinkle");
     metadata.set("wrinkle/gbuffer", reader.path().filename().string());
@@ -51,12 +51,12 @@ void check_outputs(const Scene& scene, const GBufferReader& reader, const fs::pa
 }
 
 FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
-                           const fs::path& directory, std::optional<int> frame) {
+                           const fs::path& directory, std::optional<int> frame, const std::string& provenance) {
     std::error_code failed;
     fs::create_directories(directory, failed);
     if (failed) throw Error(fmt::format("cannot make the output folder {}: {}", directory.string(), failed.message()));
     const Output& output = scene.output;
-    const Metadata metadata = provenance(scene, reader, output.passthrough);
+    const Metadata metadata = header_of(scene, reader, output.passthrough);
     const OutputNames names(scene, directory, frame);
     const auto add = [&](const fs::path& path, std::vector<std::string> planes, std::vector<std::string> channels,
                          PngEncoding encoding, std::set<std::string> full = {}, std::set<std::string> whole = {}) {
@@ -66,6 +66,7 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
                              .compression = output.compression,
                              .window = reader.window(),
                              .metadata = metadata,
+                             .provenance = provenance,
                              .png = encoding,
                              .png_bits = output.png,
                              .exposure = scene.lighting.exposure};

@@ -22,7 +22,7 @@ void check_outputs(const Scene& scene, const GBufferReader& reader, const std::f
 class FrameOutputs {
 public:
     FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
-                 const std::filesystem::path& directory, std::optional<int> frame);
+                 const std::filesystem::path& directory, std::optional<int> frame, const std::string& provenance = {});
 
     /// Planes of the input that go into the output untouched.
     const std::vector<std::string>& passed_planes() const { return passed_; }

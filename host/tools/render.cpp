@@ -3,12 +3,15 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include "device/guarded.h"
+#include "io/provenance.h"
 #include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
+#include "run/output_names.h"
 #include "tools/frame_warnings.h"
 #include "tools/scene_passes.h"
 #include "wrinkle/error.h"
@@ -27,25 +30,59 @@ void add_new(std::vector<std::string>& lines, const std::vector<std::string>& mo
         if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
 }
 
+/// What frames are evaluated on. It is made for the first one that has to be.
+struct OpenDevice {
+    OpenDevice(Device opened) : device(std::move(opened)), store(device) {}
+
+    Device device;
+    TextureStore store;
+};
+
 /// The frames of a run, one after another.
 class FrameLoop {
 public:
     FrameLoop(const Scene& scene, const RenderOptions& options)
-        : options_(options),
-          frames_(options.frames.empty() ? std::vector<int>{0} : options.frames),
-          device_(clock_.measure(PhaseClock::build, [&] { return Device::open(options.device); })),
-          store_(device_) {
-        if (options.lanes != 0) device_.info.lanes = options.lanes;
-        take(scene);
-    }
+        : scene_(scene),
+          options_(options),
+          frames_(options.frames.empty() ? std::vector<int>{0} : options.frames) {}
 
     RenderReport run() {
-        for (done_ = 0; done_ < frames_.size(); ++done_) render_frame(frames_[done_]);
+        for (done_ = 0; done_ < frames_.size(); ++done_) {
+            FrameReport frame{.frame = frames_[done_]};
+            const auto start = PhaseClock::Clock::now();
+            try {
+                guarded("render", [&] { frame.state = render_frame(frame); });
+            } catch (const Error& error) {
+                if (!options_.keep_going) throw;
+                frame.state = FrameReport::State::failed;
+                frame.error = error.what();
+                report_.failed.push_back(frame);
+                passes_.reset();  // whatever state they are in
+            }
+            frame.seconds = std::chrono::duration<double>(PhaseClock::Clock::now() - start).count();
+            report_.files.insert(report_.files.end(), frame.files.begin(), frame.files.end());
+            if (options_.frame_done) options_.frame_done(frame);
+        }
         finish_report();
         return std::move(report_);
     }
 
 private:
+    std::optional<int> given(int frame) const { return options_.frames.empty() ? std::nullopt : std::optional(frame); }
+
+    bool is_finished(int frame, const std::string& provenance) const {
+        const auto files = OutputNames(scene_, options_.directory, given(frame)).all();
+        return std::ranges::all_of(files, [&](const auto& file) { return io::is_finished(file, provenance); });
+    }
+
+    void open_device() {
+        if (on_) return;
+        Device device = clock_.measure(PhaseClock::build, [&] { return Device::open(options_.device); });
+        if (options_.lanes != 0) device.info.lanes = options_.lanes;
+        on_.emplace(std::move(device));
+        report_.device = on_->device.info;
+    }
+
     /// What was made for another scene goes, but the textures that both have.
     void take(const Scene& scene) {
         MaskMatches matches(scene);
@@ -53,43 +90,58 @@ private:
             if (matches_) add_new(report_.warnings, matches_->warnings());
             matches_ = std::move(matches);
         }
-        passes_.emplace(device_, scene, store_, clock_, report_);
+        passes_.emplace(on_->device, scene, on_->store, clock_, report_);
     }
 
-    void render_frame(int number) {
+    FrameReport::State render_frame(FrameReport& report) {
+        const int number = report.frame;
+        const std::string provenance = options_.provenance ? options_.provenance(number) : std::string{};
+        if (options_.resume && is_finished(number, provenance)) {
+            ++report_.skipped;
+            return FrameReport::State::skipped;
+        }
+        open_device();
         if (options_.scene_of_frame) {
             take(clock_.measure(PhaseClock::read, [&] { return options_.scene_of_frame(number); }));
-            store_.keep_latest();
+            on_->store.keep_latest();
+        } else if (!passes_) {
+            take(scene_);
         }
         const Scene& scene = passes_->scene();
         GBufferReader reader = clock_.measure(PhaseClock::read, [&] { return open_frame(scene, number); });
         const FrameCamera camera =
             clock_.measure(PhaseClock::read, [&] { return camera_of_frame(scene, reader, number); });
         report_.cameras.push_back(camera.origin + "; " + describe_residual(camera));
-        add_new(report_.warnings, frame_warnings(scene, reader, camera));
+        warn(frame_warnings(scene, reader, camera));
         const Frame frame = frame_of(scene, reader, camera);
-        std::optional<int> given;
-        if (!options_.frames.empty()) given = number;
-        check_outputs(scene, reader, options_.directory, given);
+        check_outputs(scene, reader, options_.directory, given(number));
         matches_->begin(frame, reader.object_storage());
-        evaluate(frame, reader, given);
+        evaluate(frame, reader, provenance, report);
         report_.pixels += std::uint64_t{frame.size.width} * frame.size.height;
         ++report_.frames;
+        return FrameReport::State::written;
+    }
+
+    void warn(const std::vector<std::string>& warnings) {
+        if (options_.strict && !warnings.empty()) throw Error(warnings.front() + " (--strict)");
+        add_new(report_.warnings, warnings);
     }
 
     /// Evaluates until the error budget is kept, if there is one, and only then gives the files their names.
-    void evaluate(const Frame& frame, const GBufferReader& reader, std::optional<int> given) {
+    void evaluate(const Frame& frame, const GBufferReader& reader, const std::string& provenance, FrameReport& report) {
         const Scene& scene = passes_->scene();
         ScenePasses::Measured* const budget = passes_->budget(frame);
         for (bool done = false; !done;) {
             const PrecisionChoice how =
                 budget != nullptr ? budget->budget.choice() : everything_in(options_.precision, scene.layers.size());
-            FrameOutputs outputs(scene, passes_->pass(frame, how).impl(), reader, options_.directory, given);
+            Pass& pass = passes_->pass(frame, how);
+            warn(on_->store.doubts());
+            FrameOutputs outputs(scene, pass.impl(), reader, options_.directory, given(report.frame), provenance);
             const double seconds = run(frame, reader, how, &outputs);
             done = budget == nullptr || budget->budget.accept(budget->sample.stats());
             if (done) {
                 report_.kernels += seconds;
-                clock_.measure(PhaseClock::write, [&] { outputs.finish(report_.files); });
+                clock_.measure(PhaseClock::write, [&] { outputs.finish(report.files); });
             } else {
                 budget->budget.raise(budget->sample.stats(), [&](const PrecisionChoice& choice) {
                     run(frame, reader, choice, nullptr);
@@ -119,17 +171,15 @@ private:
     }
 
     void finish_report() {
-        add_new(report_.warnings, store_.doubts());
-        add_new(report_.warnings, matches_->warnings());
-        if (passes_->last_budget()) report_.budget = passes_->last_budget()->budget.report();
-        report_.device = device_.info;
-        for (const Layer& layer : passes_->scene().layers)
+        if (matches_) add_new(report_.warnings, matches_->warnings());
+        if (passes_ && passes_->last_budget()) report_.budget = passes_->last_budget()->budget.report();
+        for (const Layer& layer : scene_.layers)
             report_.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
         report_.read = clock_.seconds(PhaseClock::read);
         report_.build = clock_.seconds(PhaseClock::build) - report_.upload;
         report_.write = clock_.seconds(PhaseClock::write);
         report_.check = clock_.seconds(PhaseClock::check);
-        report_.kernel_ns_per_pixel = report_.kernels / static_cast<double>(report_.pixels) * 1e9;
+        report_.kernel_ns_per_pixel = report_.pixels == 0 ? 0 : report_.kernels / static_cast<double>(report_.pixels) * 1e9;
         report_.outside =
             clock_.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
         report_.wall = clock_.wall();
@@ -138,12 +188,12 @@ private:
         report_.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     }
 
+    const Scene& scene_;  ///< that of any frame, where they differ
     const RenderOptions& options_;
     const std::vector<int> frames_;
     RenderReport report_;
     PhaseClock clock_;
-    Device device_;
-    TextureStore store_;
+    std::optional<OpenDevice> on_;
     std::optional<ScenePasses> passes_;
     std::optional<MaskMatches> matches_;
     std::size_t done_ = 0;
