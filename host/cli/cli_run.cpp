@@ -118,8 +118,9 @@ void run(const RunArguments& arguments) {
     check_output_name(scene.output.name, frames);
     if (!file.frame_files.empty()) {
         if (arguments.scene == "-")
-            throw Error("a scene whose textures or tables differ from frame to frame is read again for each; give a "
-                        "file in place of standard input");
+            throw Error(
+                "a scene whose textures or tables differ from frame to frame is read again for each; give a "
+                "file in place of standard input");
         options.scene_of_frame = [&](int frame) { return scenes.at(frame).scene; };
     }
     options.provenance = [&](int frame) {
@@ -180,7 +181,8 @@ void add_run(CLI::App& app) {
                       "after a frame that fails; which ones did is told at the end, with exit code 1");
     command->add_flag("--strict", arguments->strict, "a frame that would be warned of fails");
     command->add_flag("--quiet", arguments->quiet, "print errors only");
-    command->add_flag("--json", arguments->json, "print the report as JSON; of --frames, a line for each and the report in the last");
+    command->add_flag("--json", arguments->json,
+                      "print the report as JSON; of --frames, a line for each and the report in the last");
     command->callback([arguments] { run(*arguments); });
 }
 

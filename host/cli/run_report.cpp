@@ -14,7 +14,9 @@ namespace wrinkle::cli {
 namespace {
 
 const char* name_of(FrameReport::State state) {
-    return state == FrameReport::State::written ? "written" : state == FrameReport::State::skipped ? "skipped" : "failed";
+    return state == FrameReport::State::written   ? "written"
+           : state == FrameReport::State::skipped ? "skipped"
+                                                  : "failed";
 }
 
 nlohmann::json names_of(const std::vector<std::filesystem::path>& files) {

@@ -23,8 +23,8 @@ struct FrameCamera {
     std::vector<std::string> doubts;   ///< what of the frame does not fit together, in sentences
 };
 
-/// FRAME.camera.json beside the frame, or the same without the frame's extension, if there is one: the camera of a scene
-/// that names none.
+/// FRAME.camera.json beside the frame, or the same without the frame's extension, if there is one: the camera of a
+/// scene that names none.
 std::optional<std::filesystem::path> camera_beside(const std::filesystem::path& frame);
 
 /// Reads the camera of frame number `frame` from wherever `source` says, as one for all of the frame, overscan

@@ -33,7 +33,7 @@ struct ImageOptions {
     Compression compression = Compression::zip;  ///< EXR
     /// Where the pixels lie; nothing: they are the picture. EXR files hold all of them, PNG the display window.
     std::optional<FrameWindow> window{};
-    Metadata metadata;  ///< EXR: attributes for the header; those that say how a file is stored are left out
+    Metadata metadata;         ///< EXR: attributes for the header; those that say how a file is stored are left out
     std::string provenance{};  ///< a hash of all that goes into the picture (io/provenance.h); empty: none is written
     PngEncoding png = PngEncoding::srgb;
     int png_bits = 8;     ///< of a channel: 8 or 16
@@ -41,7 +41,8 @@ struct ImageOptions {
 };
 
 /// Writes a picture band by band. It appears under its name only when finish() returns; until then an older file of
-/// that name stays as it is. The extension chooses the format: .exr (scanlines) or .png (8 or 16 bits, 1 to 4 channels).
+/// that name stays as it is. The extension chooses the format: .exr (scanlines) or .png (8 or 16 bits, 1 to 4
+/// channels).
 class ImageWriter {
 public:
     /// Throws Error when the folder is missing or not writable, or the extension is neither .exr nor .png.

@@ -11,6 +11,17 @@
 
 namespace wrinkle::io {
 
+namespace {
+
+bool ends_as_png(const InputFile& file) {
+    constexpr std::string_view last_chunk("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+    std::string end(last_chunk.size(), ' ');
+    return file.size() >= end.size() && file.read_at(file.size() - end.size(), end.data(), end.size()) == end.size() &&
+           end == last_chunk;
+}
+
+}  // namespace
+
 struct Provenance::Impl {
     OIIO::SHA1 hash;
 };
@@ -40,7 +51,7 @@ bool is_finished(const std::filesystem::path& file, const std::string& provenanc
         const OpenImage image(file);
         const OIIO::ImageSpec spec = image.input().spec(0);
         if (spec.get_string_attribute(kProvenance) != provenance) return false;
-        if (image.input().format_name() == std::string_view("png")) return true;  // one that ends early does not open
+        if (image.input().format_name() == std::string_view("png")) return ends_as_png(*image.file());
         std::vector<float> row(static_cast<std::size_t>(spec.width));
         const int last = spec.y + spec.height - 1;
         return image.input().read_scanlines(0, 0, last, last + 1, 0, 0, 1, OIIO::TypeFloat, row.data());

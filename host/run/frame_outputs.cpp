@@ -1,6 +1,8 @@
 #include "run/frame_outputs.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -21,16 +23,24 @@ namespace {
 /// Channel name of an output plane. Components as .X .Y .Z, .XX .XY .YY: other programs show those as layers.
 std::string channel_name(const std::string& plane, ChannelNames names) {
     constexpr std::string_view normal = "normal.";
-    if (names == ChannelNames::passes)
-        return plane.starts_with(normal) ? "N." + plane.substr(normal.size()) : plane;
+    if (names == ChannelNames::passes) return plane.starts_with(normal) ? "N." + plane.substr(normal.size()) : plane;
     std::string name = plane;
     for (std::size_t i = plane.rfind('.'); i < plane.size(); ++i)
         name[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[i])));
     return name;
 }
 
+/// When the frame was made. OpenImageIO would take the time of writing, and no two files would be the same.
+std::string date_of(const GBufferReader& reader) {
+    if (const auto date = reader.metadata().text("DateTime")) return *date;
+    struct stat status {};
+    const bool known = ::stat(reader.path().c_str(), &status) == 0;
+    return fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(known ? status.st_mtim.tv_sec : 0));
+}
+
 Metadata header_of(const Scene& scene, const GBufferReader& reader, bool passthrough) {
     Metadata metadata = passthrough ? reader.metadata() : Metadata();
+    metadata.set("DateTime", date_of(reader));
     metadata.set("Software", "wrinkle");
     metadata.set("wrinkle/gbuffer", reader.path().filename().string());
     if (!scene.file.empty()) metadata.set("wrinkle/scene", scene.file.filename().string());

@@ -42,9 +42,7 @@ struct OpenDevice {
 class FrameLoop {
 public:
     FrameLoop(const Scene& scene, const RenderOptions& options)
-        : scene_(scene),
-          options_(options),
-          frames_(options.frames.empty() ? std::vector<int>{0} : options.frames) {}
+        : scene_(scene), options_(options), frames_(options.frames.empty() ? std::vector<int>{0} : options.frames) {}
 
     RenderReport run() {
         for (done_ = 0; done_ < frames_.size(); ++done_) {
@@ -173,15 +171,14 @@ private:
     void finish_report() {
         if (matches_) add_new(report_.warnings, matches_->warnings());
         if (passes_ && passes_->last_budget()) report_.budget = passes_->last_budget()->budget.report();
-        for (const Layer& layer : scene_.layers)
-            report_.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
+        for (const Layer& layer : scene_.layers) report_.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
         report_.read = clock_.seconds(PhaseClock::read);
         report_.build = clock_.seconds(PhaseClock::build) - report_.upload;
         report_.write = clock_.seconds(PhaseClock::write);
         report_.check = clock_.seconds(PhaseClock::check);
-        report_.kernel_ns_per_pixel = report_.pixels == 0 ? 0 : report_.kernels / static_cast<double>(report_.pixels) * 1e9;
-        report_.outside =
-            clock_.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
+        report_.kernel_ns_per_pixel =
+            report_.pixels == 0 ? 0 : report_.kernels / static_cast<double>(report_.pixels) * 1e9;
+        report_.outside = clock_.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
         report_.wall = clock_.wall();
         rusage usage{};
         getrusage(RUSAGE_SELF, &usage);

@@ -17,13 +17,13 @@ struct FrameReport {
     int frame = 0;
     State state = State::written;
     double seconds = 0;
-    std::string error;                         ///< why it failed
-    std::vector<std::filesystem::path> files;  ///< that were written
+    std::string error{};                         ///< why it failed
+    std::vector<std::filesystem::path> files{};  ///< that were written
 };
 
 struct RenderOptions {
     std::filesystem::path directory = "out";
-    std::vector<int> frames;                    ///< empty: the scene's file as it is
+    std::vector<int> frames;  ///< empty: the scene's file as it is
     /// The scene of a frame, where textures, tables or volumes differ from frame to frame.
     std::function<Scene(int frame)> scene_of_frame;
     std::string device;                         ///< as Device::open takes it

@@ -66,7 +66,7 @@ TEST_F(SetValues, NumbersOfFramesAndVariablesAreFilledIntoNames) {
     EXPECT_EQ(loaded.frame_files, std::vector{folder_ / "textures/wall.####.png"});
     EXPECT_THROW(load_scene_file(file, {.frame = 8}), Error);
     ::setenv("WRINKLE_TEST_TEXTURES", (folder_ / "textures").c_str(), 1);
-    EXPECT_EQ(load_scene_file(write("c.toml", frame_ + layer + "$WRINKLE_TEST_TEXTURES/wall.png\"\n", {}).files,
+    EXPECT_EQ(load_scene_file(write("c.toml", frame_ + layer + "$WRINKLE_TEST_TEXTURES/wall.png\"\n"), {}).files,
               std::vector{folder_ / "textures/wall.png"});
     ::unsetenv("WRINKLE_TEST_TEXTURES");
     expect_problem_with(layer + "$WRINKLE_TEST_TEXTURES/wall.png\"\n", 7, {"\"texture\"", "none of that name is set"});
