@@ -34,6 +34,7 @@ struct ExplainArguments {
     int lanes = 0;
     std::optional<int> frame;
     std::optional<double> max_error;
+    std::vector<std::string> set;
     bool full = false, no_source = false, json = false;
 };
 
@@ -149,9 +150,10 @@ void print_json(const Plan& plan, double operations, const OnDevice& on, const s
 }
 
 void explain(const ExplainArguments& arguments) {
-    Scene scene = load_scene(arguments.scene);
+    const scene::SceneFile file = load_scene_file(arguments.scene, {.set = arguments.set, .frame = arguments.frame});
+    Scene scene = file.scene;
     if (arguments.max_error) scene.budget.max_error = arguments.max_error;
-    check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
+    check_frame_pattern(frame_files(file), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     if (wants_lights(scene)) scene = with_lights(scene, lights_of_frame(scene, number));
     GBufferReader reader = open_frame(scene, number);
@@ -203,6 +205,7 @@ void add_explain(CLI::App& app) {
         app.add_subcommand("explain", "Print a scene's plan: stages, channels, expected cost, and the kernel source");
     command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
     command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
+    add_set_option(*command, arguments->set);
     add_max_error_option(*command, arguments->max_error, "explains what a run under that budget starts with");
     add_device_option(*command, arguments->device);
     add_lanes_option(*command, arguments->lanes);

@@ -8,8 +8,10 @@
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "cli/json_text.h"
+#include "cli/options.h"
 #include "io/channel_names.h"
 #include "io/info.h"
+#include "layers/kinds.h"
 #include "tools/frame_warnings.h"
 #include "tools/readiness.h"
 
@@ -149,6 +151,7 @@ void print_json(const GBufferInfo& info, const std::vector<std::string>& of_scen
 struct InfoArguments {
     std::filesystem::path file, camera;
     std::optional<int> frame;
+    std::vector<std::string> set;
     bool json = false;
 };
 
@@ -156,15 +159,20 @@ void info(const InfoArguments& arguments) {
     GBufferSource source;
     std::optional<CameraSource> camera;
     std::optional<Scene> scene;
+    std::vector<std::filesystem::path> of_layers;
     if (lower(arguments.file.extension().string()) == ".toml") {
-        scene = load_scene(arguments.file);
+        const scene::SceneFile file = load_scene_file(arguments.file, {.set = arguments.set, .frame = arguments.frame});
+        scene = file.scene;
         source = scene->gbuffer;
         camera = scene->camera;
+        of_layers = file.frame_files;
     } else {
         source.file = arguments.file;
     }
     if (!arguments.camera.empty()) camera.emplace().file = arguments.camera;
-    check_frame_pattern(frame_files(source, camera), "--frame", arguments.frame.has_value());
+    std::vector<std::filesystem::path> files = frame_files(source, camera);
+    files.insert(files.end(), of_layers.begin(), of_layers.end());
+    check_frame_pattern(files, "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     const GBufferInfo gathered = gather_info(source, camera, number);
     std::vector<std::string> of_scene;
@@ -190,6 +198,7 @@ void add_info(CLI::App& app) {
                      "camera file (JSON with view and proj); else the scene's, FILE.camera.json or the header")
         ->type_name("FILE");
     command->add_option("--frame", arguments->frame, "which frame, where the name has #### or %04d");
+    add_set_option(*command, arguments->set);
     command->add_flag("--json", arguments->json, "print as JSON");
     command->callback([arguments] { info(*arguments); });
 }

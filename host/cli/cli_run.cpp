@@ -5,14 +5,16 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/commands.h"
 #include "cli/frame_list.h"
-#include "cli/json_text.h"
 #include "cli/options.h"
+#include "cli/run_report.h"
 #include "io/threads.h"
+#include "layers/kinds.h"
+#include "tools/frame_lights.h"
+#include "tools/frame_provenance.h"
 #include "tools/render.h"
 #include "wrinkle/error.h"
 
@@ -23,8 +25,9 @@ namespace {
 struct RunArguments {
     std::filesystem::path scene;
     std::string directory = "out", frames, device;
+    std::vector<std::string> set;
     int threads = 0, repeat = 1, lanes = 0;
-    bool quiet = false, json = false;
+    bool quiet = false, json = false, resume = false, force = false, keep_going = false, strict = false;
     std::optional<double> max_error;
     std::optional<int> sample, seed;
     std::optional<Precision> precision;
@@ -42,110 +45,106 @@ std::function<void(double)> progress_bar(bool wanted) {
     };
 }
 
-void print_budget(const BudgetReport& budget) {
-    for (const std::string& miss : budget.misses) fmt::print("missed by {}\n", miss);
-    fmt::print("max_error {} degrees: {}\n", budget.max_error, budget.precision);
-    fmt::print("  expected {:.2f} ns/pixel, {:.1e} degrees, by the table of {}\n", budget.expected_ns,
-               budget.expected_error, budget.costs);
-    fmt::print("  measured {:.1e} degrees (median), {:.1e} (99%), {:.1e} (largest) on {} pixels, seed {}\n\n",
-               budget.measured.median, budget.measured.p99, budget.measured.max, budget.measured.samples, budget.seed);
-}
+/// The scene of a run, read again for frames whose textures or tables differ.
+class RunScene {
+public:
+    explicit RunScene(const RunArguments& arguments) : arguments_(arguments) {}
 
-nlohmann::json json_of(const BudgetReport& budget) {
-    return {{"max_error", budget.max_error},
-            {"precision", budget.precision},
-            {"costs", budget.costs},
-            {"expected", {{"ns_per_pixel", budget.expected_ns}, {"degrees", budget.expected_error}}},
-            {"measured",
-             {{"median", budget.measured.median},
-              {"p99", budget.measured.p99},
-              {"max", budget.measured.max},
-              {"pixels", budget.measured.samples}}},
-            {"seed", budget.seed},
-            {"misses", budget.misses}};
-}
+    /// With the numbers of `frame` in its names. The reference holds until another frame is asked for.
+    const scene::SceneFile& at(std::optional<int> frame) {
+        if (file_ && (frame == frame_ || file_->frame_files.empty())) return *file_;
+        scene::SceneFile file = load_scene_file(arguments_.scene, {.set = arguments_.set, .frame = frame});
+        if (arguments_.max_error) file.scene.budget.max_error = arguments_.max_error;
+        if (arguments_.sample) file.scene.budget.sample = *arguments_.sample;
+        if (arguments_.seed) file.scene.budget.seed = *arguments_.seed;
+        file_ = std::move(file), frame_ = frame;
+        return *file_;
+    }
 
-void print_table(const RenderReport& report) {
-    const double megapixels = static_cast<double>(report.pixels) / 1e6;
-    fmt::print("{} frame{}, {:.2f} Mpixel, {} active layer{} on {} ({} lanes)\n", report.frames,
-               report.frames == 1 ? "" : "s", megapixels, report.layers, report.layers == 1 ? "" : "s",
-               report.device.name, report.device.lanes);
-    for (const std::string& camera : report.cameras) fmt::print("camera: {}\n", camera);
-    if (!report.lights.empty())
-        fmt::print("lights, fitted to the picture as the scene names none: {}\n", report.lights);
-    fmt::print("\n  {:<22}{:>10}\n", "phase", "seconds");
-    fmt::print("  {:<22}{:>10.3f}\n", "read", report.read);
-    fmt::print("  {:<22}{:>10.3f}\n", "upload (textures)", report.upload);
-    fmt::print("  {:<22}{:>10.3f}\n", report.cache_hit ? "build (cache hit)" : "build (compiled)", report.build);
-    fmt::print("  {:<22}{:>10.3f}   {:.2f} ns/pixel\n", "kernels", report.kernels, report.kernel_ns_per_pixel);
-    if (report.budget) fmt::print("  {:<22}{:>10.3f}\n", "check in double", report.check);
-    fmt::print("  {:<22}{:>10.3f}\n", "write", report.write);
-    fmt::print("  {:<22}{:>10.3f}   {:.3f} of it outside read, kernels, write\n", "wall (phases overlap)", report.wall,
-               report.outside);
-    fmt::print("  {:<22}{:>10.0f}\n\n", "peak memory, MiB", static_cast<double>(report.peak_memory) / (1 << 20));
-    if (report.budget) print_budget(*report.budget);
-    for (const auto& file : report.files) fmt::print("wrote {}\n", file.string());
-}
+    /// That of the first of the frames; with --keep-going, of the first for which there is one.
+    const scene::SceneFile& first(const std::vector<int>& frames) {
+        for (const int frame : frames) {
+            try {
+                return at(frame);
+            } catch (const Error&) {
+                if (!arguments_.keep_going || frame == frames.back()) throw;
+            }
+        }
+        return at(std::nullopt);
+    }
 
-void print_json(const RenderReport& report) {
-    nlohmann::json files = nlohmann::json::array();
-    for (const auto& file : report.files) files.push_back(file.string());
-    fmt::print("{}\n", json_text(nlohmann::json{{"frames", report.frames},
-                                                {"pixels", report.pixels},
-                                                {"layers", report.layers},
-                                                {"device", report.device.name},
-                                                {"lanes", report.device.lanes},
-                                                {"cache_hit", report.cache_hit},
-                                                {"seconds",
-                                                 {{"read", report.read},
-                                                  {"upload", report.upload},
-                                                  {"build", report.build},
-                                                  {"kernels", report.kernels},
-                                                  {"check", report.check},
-                                                  {"write", report.write},
-                                                  {"wall", report.wall},
-                                                  {"outside", report.outside}}},
-                                                {"kernel_ns_per_pixel", report.kernel_ns_per_pixel},
-                                                {"peak_memory_bytes", report.peak_memory},
-                                                {"cameras", report.cameras},
-                                                {"fitted_lights", report.lights},
-                                                {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
-                                                {"warnings", report.warnings},
-                                                {"files", files}}));
-}
+private:
+    const RunArguments& arguments_;
+    std::optional<scene::SceneFile> file_;
+    std::optional<int> frame_;
+};
 
-void run(const RunArguments& arguments) {
-    RenderOptions options;
-    if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-    Scene scene = load_scene(arguments.scene);
-    if (arguments.max_error) scene.budget.max_error = arguments.max_error;
-    if (arguments.sample) scene.budget.sample = *arguments.sample;
-    if (arguments.seed) scene.budget.seed = *arguments.seed;
+RenderOptions options_of(const RunArguments& arguments, const Scene& scene) {
     if ((arguments.sample || arguments.seed) && !scene.budget.max_error)
         throw Error("--sample and --seed measure an error budget; give --max-error, or max_error in the scene");
     if (arguments.precision && scene.budget.max_error)
         throw Error("--precision and max_error exclude each other: an error budget chooses the precision");
+    RenderOptions options;
     options.precision = arguments.precision.value_or(Precision::standard);
     options.directory = arguments.directory;
     options.device = arguments.device;
     options.lanes = arguments.lanes;
     options.repeat = arguments.repeat;
-    const auto files = frame_files(scene.gbuffer, scene.camera);
-    check_frame_pattern(files, "--frames", !options.frames.empty());
-    check_frames_exist(files, options.frames);
+    options.resume = arguments.resume && !arguments.force;
+    options.keep_going = arguments.keep_going;
+    options.strict = arguments.strict;
+    return options;
+}
+
+/// What of a sequence went wrong while the rest was written.
+void tell_failures(const RenderReport& report, bool strict) {
+    std::string text;
+    for (const FrameReport& frame : report.failed) text += fmt::format("\nframe {}: {}", frame.frame, frame.error);
+    if (!text.empty())
+        throw Error(fmt::format("{} of {} frames failed:{}", report.failed.size(),
+                                report.failed.size() + static_cast<std::size_t>(report.frames + report.skipped), text));
+    if (strict && !report.warnings.empty()) throw Error(report.warnings.front() + " (--strict)");
+}
+
+void run(const RunArguments& arguments) {
+    const std::vector<int> frames = arguments.frames.empty() ? std::vector<int>{} : parse_frames(arguments.frames);
+    RunScene scenes(arguments);
+    const scene::SceneFile file = scenes.first(frames);
+    const Scene& scene = file.scene;
+    RenderOptions options = options_of(arguments, scene);
+    options.frames = frames;
+    const auto files = frame_files(file);
+    check_frame_pattern(files, "--frames", !frames.empty());
+    if (!arguments.keep_going) check_frames_exist(files, frames);
+    check_output_name(scene.output.name, frames);
+    if (!file.frame_files.empty()) {
+        if (arguments.scene == "-")
+            throw Error(
+                "a scene whose textures or tables differ from frame to frame is read again for each; give a "
+                "file in place of standard input");
+        options.scene_of_frame = [&](int frame) { return scenes.at(frame).scene; };
+    }
+    // Lights that are fitted are those of the first frame.
+    const std::string fitted = wants_lights(scene) && !frames.empty() ? fmt::format(" {}", frames.front()) : "";
+    options.provenance = [&, fitted](int frame) {
+        return frame_provenance(file.frame_files.empty() ? file : scenes.at(frame), options, frame) + fitted;
+    };
     if (arguments.threads > 0) {
         // PoCL reads it when it starts.
         setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);
         set_image_threads(arguments.threads);
     }
     options.progress = progress_bar(!arguments.quiet && !arguments.json);
+    if (!frames.empty() && (arguments.json || (!arguments.quiet && !options.progress)))
+        options.frame_done = FrameLines(frames.size(), arguments.json);
     const RenderReport report = render(scene, options);
     if (arguments.json) {
-        print_json(report);
+        print_json(report, !frames.empty());
     } else if (!arguments.quiet) {
         for (const std::string& warning : report.warnings) fmt::print(stderr, "wrinkle: warning: {}\n", warning);
         print_table(report);
     }
+    tell_failures(report, arguments.strict);
 }
 
 }  // namespace
@@ -159,6 +158,7 @@ void add_run(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--frames", arguments->frames, "frame numbers: 7, 1-10, 1-100x5, or several with commas")
         ->type_name("LIST");
+    add_set_option(*command, arguments->set);
     add_device_option(*command, arguments->device);
     add_lanes_option(*command, arguments->lanes);
     command->add_option("--threads", arguments->threads, "threads for files and for CPU kernels; 0: all cores")
@@ -177,8 +177,15 @@ void add_run(CLI::App& app) {
     command->add_option("--seed", arguments->seed, "which pixels (1)")
         ->type_name("N")
         ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+    command->add_flag("--resume", arguments->resume,
+                      "skip frames whose files are there, of the same scene, files, options and version");
+    command->add_flag("--force", arguments->force, "evaluate them all the same, whatever --resume would skip");
+    command->add_flag("--keep-going", arguments->keep_going,
+                      "after a frame that fails; which ones did is told at the end, with exit code 1");
+    command->add_flag("--strict", arguments->strict, "a frame that would be warned of fails");
     command->add_flag("--quiet", arguments->quiet, "print errors only");
-    command->add_flag("--json", arguments->json, "print the report as JSON");
+    command->add_flag("--json", arguments->json,
+                      "print the report as JSON; of --frames, a line for each and the report in the last");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -9,6 +9,7 @@
 #include "cli/checks.h"
 #include "cli/commands.h"
 #include "cli/frame_list.h"
+#include "cli/options.h"
 #include "io/camera_file.h"
 #include "io/frame_path.h"
 #include "io/gbuffer_reader.h"
@@ -28,6 +29,7 @@ const std::map<std::string, ProjectorShape> kShapes{
 struct ScatterArguments {
     std::filesystem::path scene, file = "decals.csv";
     std::optional<int> frame;
+    std::vector<std::string> set;
     ScatterOptions options;
     std::vector<double> size{0.1, 0.2};
     std::vector<std::uint32_t> atlas{1, 1};
@@ -44,9 +46,10 @@ std::vector<std::string> planes_of(Geometry geometry) {
 }
 
 void scatter(ScatterArguments arguments) {
-    const Scene scene = load_scene(arguments.scene);
+    const scene::SceneFile file = load_scene_file(arguments.scene, {.set = arguments.set, .frame = arguments.frame});
+    const Scene& scene = file.scene;
     refuse_to_replace(arguments.file, scene::files_of(layer_kinds(), scene));
-    check_frame_pattern(frame_files(scene.gbuffer, scene.camera), "--frame", arguments.frame.has_value());
+    check_frame_pattern(frame_files(file), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     GBufferReader reader = open_frame(scene, number);
     refuse_to_replace(arguments.file, std::array{reader.path(), frame_path(scene.camera.file, number)});
@@ -81,6 +84,7 @@ void add_scatter(CLI::App& app) {
         ->type_name("FILE")
         ->capture_default_str();
     command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
+    add_set_option(*command, arguments->set);
     command->add_option("--count", options.count, "decals, at most")
         ->capture_default_str()
         ->check(CLI::Range(1, 10'000'000));

@@ -7,7 +7,9 @@
 #include <charconv>
 #include <sstream>
 
+#include "base/names.h"
 #include "io/frame_path.h"
+#include "scene/files.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -62,6 +64,22 @@ std::vector<std::filesystem::path> frame_files(const GBufferSource& gbuffer,
     return files;
 }
 
+std::vector<std::filesystem::path> frame_files(const scene::SceneFile& file) {
+    auto files = frame_files(file.scene.gbuffer, file.scene.camera);
+    files.insert(files.end(), file.frame_files.begin(), file.frame_files.end());
+    return files;
+}
+
+void check_output_name(const std::string& name, const std::vector<int>& frames) {
+    if (has_frame_place(name) && frames.empty())
+        throw Error(fmt::format("[output] name = {} holds a place for a frame number: give --frames", quote(name)));
+    if (!name.empty() && !has_frame_place(name) && frames.size() > 1)
+        throw Error(fmt::format(
+            "[output] name = {} needs a place for the number, as {} frames would replace each other; name it such as "
+            "bump.####.exr",
+            quote(name), frames.size()));
+}
+
 void check_frame_pattern(const std::vector<std::filesystem::path>& files, const char* option, bool given) {
     const auto pattern = std::ranges::find_if(files, has_frame_pattern);
     if (pattern != files.end() && !given)
@@ -78,8 +96,7 @@ void check_frames_exist(const std::vector<std::filesystem::path>& files, const s
     std::vector<std::string> missing;
     for (const int frame : frames)
         for (const std::filesystem::path& file : files) {
-            std::error_code code;
-            if (const auto path = frame_path(file, frame); !std::filesystem::exists(path, code))
+            if (const auto path = frame_path(file, frame); !scene::why_not_readable(path, false, "").empty())
                 missing.push_back(path.string());
         }
     if (missing.empty()) return;

@@ -24,6 +24,14 @@ void add_lanes_option(CLI::App& command, int& lanes) {
             ""));
 }
 
+void add_set_option(CLI::App& command, std::vector<std::string>& settings) {
+    command
+        .add_option("--set", settings,
+                    "a value in place of the scene's: lighting.exposure=1, layer.NAME.scale=0.02, light.1.intensity=3")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
 Device open_device(const std::string& device, int lanes) {
     Device opened = Device::open(device);
     if (lanes != 0) opened.info.lanes = lanes;

@@ -62,16 +62,6 @@ FrameCamera camera_of_positions(const GBufferReader& reader, std::span<const Pos
     return {};
 }
 
-/// FRAME.camera.json beside the frame, or the same without the frame's extension.
-std::optional<std::filesystem::path> camera_beside(const std::filesystem::path& frame) {
-    for (auto beside : {frame.string() + ".camera.json",
-                        std::filesystem::path(frame).replace_extension().string() + ".camera.json"}) {
-        std::error_code code;
-        if (std::filesystem::exists(beside, code)) return beside;
-    }
-    return std::nullopt;
-}
-
 /// The camera of a scene that names none.
 FrameCamera camera_found(const GBufferReader& reader, double max_residual, std::span<const PositionSample> samples) {
     const Size size = reader.window().display;
@@ -129,6 +119,15 @@ void doubt_outliers(FrameCamera& result) {
 }
 
 }  // namespace
+
+std::optional<std::filesystem::path> camera_beside(const std::filesystem::path& frame) {
+    for (auto beside : {frame.string() + ".camera.json",
+                        std::filesystem::path(frame).replace_extension().string() + ".camera.json"}) {
+        std::error_code code;
+        if (std::filesystem::exists(beside, code)) return beside;
+    }
+    return std::nullopt;
+}
 
 FrameCamera read_frame_camera(const CameraSource& source, const GBufferReader& reader, int frame) {
     const auto samples = sample_positions(reader);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ struct FrameCamera {
     bool depth_fits = true;            ///< false: depth is neither planar depth nor distance of these positions
     std::vector<std::string> doubts;   ///< what of the frame does not fit together, in sentences
 };
+
+/// FRAME.camera.json beside the frame, or the same without the frame's extension, if there is one: the camera of a
+/// scene that names none.
+std::optional<std::filesystem::path> camera_beside(const std::filesystem::path& frame);
 
 /// Reads the camera of frame number `frame` from wherever `source` says, as one for all of the frame, overscan
 /// included. Measures the residual, and leaves it to check_residual() to refuse a large one. Throws Error when the file

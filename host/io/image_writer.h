@@ -12,6 +12,7 @@
 #include "io/frame_window.h"
 #include "io/metadata.h"
 #include "wrinkle/camera.h"
+#include "wrinkle/scene.h"
 
 namespace wrinkle {
 
@@ -29,15 +30,19 @@ struct ImageOptions {
     std::set<std::string> full;  ///< further channels that stay 32-bit
     std::set<std::string>
         whole{};  ///< EXR: channels whose floats hold the bits of unsigned integers, to be stored as such
+    Compression compression = Compression::zip;  ///< EXR
     /// Where the pixels lie; nothing: they are the picture. EXR files hold all of them, PNG the display window.
     std::optional<FrameWindow> window{};
-    Metadata metadata;  ///< EXR: attributes for the header; those that say how a file is stored are left out
+    Metadata metadata;         ///< EXR: attributes for the header; those that say how a file is stored are left out
+    std::string provenance{};  ///< a hash of all that goes into the picture (io/provenance.h); empty: none is written
     PngEncoding png = PngEncoding::srgb;
+    int png_bits = 8;     ///< of a channel: 8 or 16
     double exposure = 0;  ///< stops; PngEncoding::srgb
 };
 
 /// Writes a picture band by band. It appears under its name only when finish() returns; until then an older file of
-/// that name stays as it is. The extension chooses the format: .exr (ZIP scanlines) or .png (8 bit, 1 to 4 channels).
+/// that name stays as it is. The extension chooses the format: .exr (scanlines) or .png (8 or 16 bits, 1 to 4
+/// channels).
 class ImageWriter {
 public:
     /// Throws Error when the folder is missing or not writable, or the extension is neither .exr nor .png.

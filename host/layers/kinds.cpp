@@ -37,9 +37,11 @@ LayerKinds layer_kinds() {
     return rows;
 }
 
-Scene load_scene(const std::filesystem::path& file) {
-    return only_errors(file.c_str(), [&] { return scene::load_scene(layer_kinds(), file); });
+scene::SceneFile load_scene_file(const std::filesystem::path& file, const scene::SceneOptions& options) {
+    return only_errors(file.c_str(), [&] { return scene::load_scene_file(layer_kinds(), file, options); });
 }
+
+Scene load_scene(const std::filesystem::path& file) { return load_scene_file(file, {}).scene; }
 
 Figure load_figure(const std::filesystem::path& file) {
     return only_errors(file.c_str(), [&] { return scene::load_figure(layer_kinds(), file); });

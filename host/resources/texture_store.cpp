@@ -24,7 +24,10 @@ cl::Buffer upload(const Device& device, std::vector<T> values) {
 std::shared_ptr<const DeviceTextures> TextureStore::get(const std::vector<PlannedTexture>& wanted) {
     const auto known = std::ranges::find_if(
         entries_, [&](const Entry& entry) { return std::ranges::equal(entry.planned, wanted, same_texels); });
-    if (known != entries_.end()) return known->textures;
+    if (known != entries_.end()) {
+        known->used = true;
+        return known->textures;
+    }
     TextureHeap heap = load_textures(wanted);
     check_fits(heap, device_.info);
     if (device_.info.type == "cpu")
@@ -35,7 +38,13 @@ std::shared_ptr<const DeviceTextures> TextureStore::get(const std::vector<Planne
     auto textures = std::make_shared<const DeviceTextures>(
         DeviceTextures{upload(device_, std::move(heap.texels)), upload(device_, std::move(heap.table))});
     entries_.push_back({wanted, textures});
+    ++loads_;
     return textures;
+}
+
+void TextureStore::keep_latest() {
+    std::erase_if(entries_, [](const Entry& entry) { return !entry.used; });
+    for (Entry& entry : entries_) entry.used = false;
 }
 
 }  // namespace wrinkle

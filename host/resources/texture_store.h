@@ -25,8 +25,11 @@ public:
     /// cannot be used, or the sizes where they do not fit into one buffer.
     std::shared_ptr<const DeviceTextures> get(const std::vector<PlannedTexture>& wanted);
 
+    /// Forgets what get() did not give since this was called last, so that memory does not grow with a sequence.
+    void keep_latest();
+
     /// How often files were read.
-    std::size_t loads() const { return entries_.size(); }
+    std::size_t loads() const { return loads_; }
 
     /// What looks wrong in the files that were read, a line each.
     const std::vector<std::string>& doubts() const { return doubts_; }
@@ -35,10 +38,12 @@ private:
     struct Entry {
         std::vector<PlannedTexture> planned;
         std::shared_ptr<const DeviceTextures> textures;
+        bool used = true;
     };
 
     Device device_;
     std::vector<Entry> entries_;
+    std::size_t loads_ = 0;
     std::vector<std::string> doubts_;
 };
 

@@ -1,6 +1,8 @@
 #include "run/frame_outputs.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -8,6 +10,7 @@
 #include "base/same_file.h"
 #include "io/frame_path.h"
 #include "layers/kinds.h"
+#include "run/output_names.h"
 #include "scene/check_scene.h"
 #include "wrinkle/error.h"
 
@@ -17,21 +20,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Channel name of an output plane: components as .X .Y .Z, .XX .XY .YY, so that other programs show them as layers.
-std::string channel_name(const std::string& plane) {
+/// Channel name of an output plane. Components as .X .Y .Z, .XX .XY .YY: other programs show those as layers.
+std::string channel_name(const std::string& plane, ChannelNames names) {
+    constexpr std::string_view normal = "normal.";
+    if (names == ChannelNames::passes) return plane.starts_with(normal) ? "N." + plane.substr(normal.size()) : plane;
     std::string name = plane;
     for (std::size_t i = plane.rfind('.'); i < plane.size(); ++i)
         name[i] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[i])));
     return name;
 }
 
-/// "name.ext", or "name.0007.ext" in a sequence.
-fs::path file_name(const char* stem, const char* extension, std::optional<int> frame) {
-    return frame ? fmt::format("{}.{:04d}.{}", stem, *frame, extension) : fmt::format("{}.{}", stem, extension);
+/// When the frame was made. OpenImageIO would take the time of writing, and no two files would be the same.
+std::string date_of(const GBufferReader& reader) {
+    if (const auto date = reader.metadata().text("DateTime")) return *date;
+    struct stat status {};
+    const bool known = ::stat(reader.path().c_str(), &status) == 0;
+    return fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(known ? status.st_mtim.tv_sec : 0));
 }
 
-Metadata provenance(const Scene& scene, const GBufferReader& reader, bool passthrough) {
+Metadata header_of(const Scene& scene, const GBufferReader& reader, bool passthrough) {
     Metadata metadata = passthrough ? reader.metadata() : Metadata();
+    metadata.set("DateTime", date_of(reader));
     metadata.set("Software", "wrinkle");
     metadata.set("wrinkle/gbuffer", reader.path().filename().string());
     if (!scene.file.empty()) metadata.set("wrinkle/scene", scene.file.filename().string());
@@ -48,34 +57,29 @@ void check_outputs(const Scene& scene, const GBufferReader& reader, const fs::pa
     std::vector<fs::path> inputs = scene::files_of(layer_kinds(), scene);
     inputs.push_back(reader.path());
     if (!scene.gbuffer.beauty_file.empty()) inputs.push_back(frame_path(scene.gbuffer.beauty_file, frame.value_or(0)));
-    const auto check = [&](const char* stem, const char* extension) {
-        refuse_to_replace(directory / file_name(stem, extension, frame), inputs);
-    };
-    const Relight relight = scene.lighting.relight;
-    check("normal", "exr");
-    if (scene.output.png) check("normal", "png");
-    if (relight != Relight::off) check("lit", "exr");
-    if (relight != Relight::off && scene.output.png) check("lit", "png");
-    if (relight == Relight::ratio && scene.output.png) check("before", "png");
+    for (const fs::path& file : OutputNames(scene, directory, frame).all()) refuse_to_replace(file, inputs);
 }
 
 FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
-                           const fs::path& directory, std::optional<int> frame) {
+                           const fs::path& directory, std::optional<int> frame, const std::string& provenance) {
     std::error_code failed;
     fs::create_directories(directory, failed);
     if (failed) throw Error(fmt::format("cannot make the output folder {}: {}", directory.string(), failed.message()));
     const Output& output = scene.output;
-    const Metadata metadata = provenance(scene, reader, output.passthrough);
-    const auto add = [&](const fs::path& name, std::vector<std::string> planes, std::vector<std::string> channels,
+    const Metadata metadata = header_of(scene, reader, output.passthrough);
+    const OutputNames names(scene, directory, frame);
+    const auto add = [&](const fs::path& path, std::vector<std::string> planes, std::vector<std::string> channels,
                          PngEncoding encoding, std::set<std::string> full = {}, std::set<std::string> whole = {}) {
         ImageOptions options{.half = output.half,
                              .full = std::move(full),
                              .whole = std::move(whole),
+                             .compression = output.compression,
                              .window = reader.window(),
                              .metadata = metadata,
+                             .provenance = provenance,
                              .png = encoding,
+                             .png_bits = output.png,
                              .exposure = scene.lighting.exposure};
-        const fs::path path = directory / name;
         files_.push_back(
             {path, std::move(planes), ImageWriter(path, pass.size, std::move(channels), std::move(options))});
     };
@@ -84,11 +88,22 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     for (const std::string& plane : pass.plan.outputs) {
         if (plane.starts_with("lit.")) continue;
         planes.push_back("out:" + plane);
-        channels.push_back(channel_name(plane));
+        channels.push_back(channel_name(plane, output.channel_names));
     }
     if (output.condition) {
         planes.push_back("out:condition");
         channels.push_back("condition");
+    }
+    const std::vector<std::string> lit{"out:lit.r", "out:lit.g", "out:lit.b"}, colors{"R", "G", "B"};
+    std::vector<std::string> with_alpha, colors_alpha;
+    if (names.is_lit()) with_alpha = lit, colors_alpha = colors;
+    if (scene.lighting.relight == Relight::ratio && reader.has_plane("beauty.a")) {
+        passed_.emplace_back("beauty.a");  // colours are premultiplied, so factors leave it as it is
+        with_alpha.push_back(passed_.back()), colors_alpha.emplace_back("A");
+    }
+    if (names.is_single()) {
+        planes.insert(planes.end(), with_alpha.begin(), with_alpha.end());
+        channels.insert(channels.end(), colors_alpha.begin(), colors_alpha.end());
     }
     std::set<std::string> full;   // depths, positions and ids of the input do not survive as half
     std::set<std::string> whole;  // integers, whose upper bits do not survive as floats
@@ -107,22 +122,13 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
             full.insert(channel);
         }
     }
-    add(file_name("normal", "exr", frame), planes, channels, PngEncoding::linear, std::move(full), std::move(whole));
-    if (output.png)
-        add(file_name("normal", "png", frame), {"out:normal.x", "out:normal.y", "out:normal.z"}, {"R", "G", "B"},
-            PngEncoding::normal);
-    if (scene.lighting.relight == Relight::off) return;
-    const std::vector<std::string> lit{"out:lit.r", "out:lit.g", "out:lit.b"}, colors{"R", "G", "B"};
-    std::vector<std::string> with_alpha = lit, colors_alpha = colors;
-    if (scene.lighting.relight == Relight::ratio && reader.has_plane("beauty.a")) {
-        passed_.emplace_back("beauty.a");  // colours are premultiplied, so factors leave it as it is
-        with_alpha.push_back(passed_.back()), colors_alpha.emplace_back("A");
-    }
-    add(file_name("lit", "exr", frame), with_alpha, colors_alpha, PngEncoding::linear);
-    if (!output.png) return;
-    add(file_name("lit", "png", frame), lit, colors, PngEncoding::srgb);
-    if (scene.lighting.relight == Relight::ratio)
-        add(file_name("before", "png", frame), {"beauty.r", "beauty.g", "beauty.b"}, colors, PngEncoding::srgb);
+    add(names.exr("normal"), planes, channels, PngEncoding::linear, std::move(full), std::move(whole));
+    if (names.is_lit() && !names.is_single()) add(names.exr("lit"), with_alpha, colors_alpha, PngEncoding::linear);
+    if (names.wants("normal"))
+        add(names.png("normal"), {"out:normal.x", "out:normal.y", "out:normal.z"}, colors, PngEncoding::normal);
+    if (names.wants("lit")) add(names.png("lit"), lit, colors, PngEncoding::srgb);
+    if (names.wants("before"))
+        add(names.png("before"), {"beauty.r", "beauty.g", "beauty.b"}, colors, PngEncoding::srgb);
 }
 
 void FrameOutputs::write(std::uint32_t begin, std::uint32_t end, const std::map<std::string, const float*>& planes) {

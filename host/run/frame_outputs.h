@@ -17,12 +17,12 @@ void check_outputs(const Scene& scene, const GBufferReader& reader, const std::f
                    std::optional<int> frame);
 
 /// The files that one frame becomes: normal.exr (with what else the scene wants), normal.png, lit.exr, lit.png, and
-/// before.png where a picture is relit; a frame number goes before the extension. Nothing is seen under these names
-/// before finish().
+/// before.png where a picture is relit, by the names that run/output_names.h gives them. Nothing is seen under these
+/// names before finish().
 class FrameOutputs {
 public:
     FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
-                 const std::filesystem::path& directory, std::optional<int> frame);
+                 const std::filesystem::path& directory, std::optional<int> frame, const std::string& provenance = {});
 
     /// Planes of the input that go into the output untouched.
     const std::vector<std::string>& passed_planes() const { return passed_; }

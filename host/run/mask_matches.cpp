@@ -52,6 +52,12 @@ MaskMatches::MaskMatches(const Scene& scene) {
     }
 }
 
+bool MaskMatches::looks_for_the_same(const MaskMatches& other) const {
+    return layers_ == other.layers_ && std::ranges::equal(wanted_, other.wanted_, [](const auto& a, const auto& b) {
+               return a.layer == b.layer && a.name == b.name && a.index == b.index;
+           });
+}
+
 void MaskMatches::begin(const Frame& frame, io::ObjectStorage objects) {
     storage_ = objects;
     objects_.unseen.clear(), ids_.unseen.clear();

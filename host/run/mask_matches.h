@@ -17,6 +17,9 @@ public:
     /// Takes what the scene's masks and tables of decals name, but inverted masks, which may well match nothing.
     explicit MaskMatches(const Scene& scene);
 
+    /// Whether both were made for the same names and layers, so that one will do.
+    bool looks_for_the_same(const MaskMatches& other) const;
+
     /// The frame whose rows come next; its Cryptomatte has a hash for every name of the scene. `objects`: how it holds
     /// object numbers.
     void begin(const Frame& frame, io::ObjectStorage objects = io::ObjectStorage::single);

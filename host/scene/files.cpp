@@ -24,7 +24,7 @@ std::string why_not_readable(const fs::path& file, bool pattern, const char* fro
     if (!has_frame_pattern(file))
         return fmt::format("there is no file {} (relative paths start from {})", file.string(), from);
     if (!pattern)
-        return fmt::format("there is no file {} (frame patterns are for the G-buffer and its camera)", file.string());
+        return fmt::format("{} holds a place for a frame number, and none is given (--frames, --frame)", file.string());
     const fs::path folder = file.parent_path();
     if (folder.empty() || fs::is_directory(folder, error)) return {};
     return fmt::format("there is no folder {}", folder.string());

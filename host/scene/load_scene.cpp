@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <sstream>
 
 #include "base/names.h"
 #include "base/text_file.h"
 #include "scene/readers.h"
+#include "scene/scene_file.h"
+#include "scene/set_values.h"
 #include "wrinkle/error.h"
 #include "wrinkle/scene.h"
 
@@ -91,15 +94,27 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out) {
     if (auto table = root.table("budget", "[budget]")) read_budget(*table, out.budget);
 }
 
-Scene load_scene(LayerKinds kinds, const std::filesystem::path& file) {
-    const toml::table values = parse_scene_file(file);
+SceneFile load_scene_file(LayerKinds kinds, const std::filesystem::path& file, const SceneOptions& options) {
+    toml::table values = parse_scene_file(file);
+    for (const std::string& setting : options.set) set_value(values, setting);
     Document document{file.parent_path(), true, Problems(file == "-" ? "standard input" : file.string())};
+    document.frame = options.frame;
     Table root(document, values, "the scene", 1);
-    Scene out;
-    out.file = file;
+    SceneFile out;
+    out.scene.file = file;
     require_gbuffer(root);
-    read_scene(root, kinds, out);
-    finish(root);
+    try {
+        read_scene(root, kinds, out.scene);
+        finish(root);
+    } catch (const Error& error) {
+        if (options.set.empty()) throw;
+        throw Error(fmt::format("{}\n(with --set {})", error.what(), fmt::join(options.set, ", --set ")));
+    }
+    std::ostringstream text;
+    text << toml::toml_formatter(values);
+    out.text = text.str();
+    out.files = std::move(document.files);
+    out.frame_files = std::move(document.frame_files);
     return out;
 }
 

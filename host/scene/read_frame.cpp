@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace wrinkle::scene {
 namespace {
+
+const std::string kPictures[] = {"normal", "lit", "before"};
 
 void read_matrices(Table& table, CameraSource& out) {
     table.require("view");
@@ -91,7 +94,7 @@ struct Form {
 const std::vector<Form>& camera_forms() {
     static const std::vector<Form> forms = {
         {{"file"},
-         [](Table& table, CameraSource& out) { table.read_file("file", out.file, Table::FramePattern::allowed); }},
+         [](Table& table, CameraSource& out) { table.read_file("file", out.file, Table::FramePattern::kept); }},
         {{"from"},
          [](Table& table, CameraSource& out) {
              enum class From { header, positions };
@@ -131,13 +134,13 @@ void read_gbuffer(Table& table, GBufferSource& out) {
         table.read("view", out.view);
         table.document().view = out.view;
         table.require("file");
-        table.read_file("file", out.file, Table::FramePattern::allowed);
+        table.read_file("file", out.file, Table::FramePattern::kept);
         if (table.document().view_in_names) out.view.clear();  // a file for each view holds no other
         table.read("layer", out.layer);
         table.read("overscan", out.overscan);
         if (auto beauty = table.table("beauty", "beauty of " + table.where())) {
             beauty->require("file");
-            beauty->read_file("file", out.beauty_file, Table::FramePattern::allowed);
+            beauty->read_file("file", out.beauty_file, Table::FramePattern::kept);
             beauty->read("layer", out.beauty_layer);
             beauty->finish();
         }
@@ -190,6 +193,35 @@ void read_filter(Table& table, Filter& out) {
     table.finish();
 }
 
+namespace {
+
+void read_png(Table& table, Output& out) {
+    constexpr int byte = 8, two_bytes = 16;
+    bool wanted = out.png != 0;
+    if (table.is_integer("png"))
+        table.read("png", out.png, byte, two_bytes);
+    else if (!table.visits() && table.read("png", wanted, Compiled::no))
+        out.png = wanted ? byte : 0;
+    if (out.png != 0 && out.png != byte && out.png != two_bytes)
+        table.complain("png", "must be false, 8 or 16, the bits of a channel");
+    table.read("pictures", out.pictures);
+    for (const std::string& picture : out.pictures)
+        if (std::ranges::find(kPictures, picture) == std::end(kPictures))
+            table.complain("pictures", fmt::format("names {}; allowed: {}", quote(picture), quote_list(kPictures)));
+}
+
+/// The folder is the command line's to choose, so that a scene of somebody else's cannot write where it likes.
+void read_output_name(Table& table, Output& out) {
+    if (!table.read_name("name", out.name)) return;
+    const std::filesystem::path name(out.name);
+    if (name.filename() != name || lower(name.extension().string()) != ".exr" || name.stem() == ".")
+        table.complain("name", fmt::format("is {}; expected the name of an EXR file without its folder (-o), such as "
+                                           "\"bump.####.exr\" for one file of all channels, or \"<picture>.####.exr\"",
+                                           quote(out.name)));
+}
+
+}  // namespace
+
 void read_output(Table& table, Output& out) {
     table.read("roughness", out.roughness);
     table.read("slope_covariance", out.slope_covariance);
@@ -200,7 +232,16 @@ void read_output(Table& table, Output& out) {
     table.read("condition", out.condition, Compiled::no);
     table.read("passthrough", out.passthrough, Compiled::no);
     table.read("half", out.half, Compiled::no);
-    table.read("png", out.png, Compiled::no);
+    read_png(table, out);
+    read_output_name(table, out);
+    table.choose("compression", out.compression,
+                 {{"zip", Compression::zip},
+                  {"zips", Compression::zips},
+                  {"dwaa", Compression::dwaa},
+                  {"none", Compression::none}},
+                 Compiled::no);
+    table.choose("channel_names", out.channel_names,
+                 {{"normal.X", ChannelNames::layers}, {"N.x", ChannelNames::passes}}, Compiled::no);
     table.finish();
 }
 

@@ -11,8 +11,7 @@ namespace wrinkle::scene {
 /// The file as TOML. Throws Error when it cannot be read, is not TOML or holds nothing.
 toml::table parse_scene_file(const std::filesystem::path& file);
 
-/// What wrinkle::load_scene and wrinkle::load_figure give, for these kinds of layers.
-Scene load_scene(LayerKinds kinds, const std::filesystem::path& file);
+/// What wrinkle::load_figure gives, for these kinds of layers.
 Figure load_figure(LayerKinds kinds, const std::filesystem::path& file);
 
 /// A scene of text in memory, which `name` calls it in messages; relative paths are relative to `folder`. A scene

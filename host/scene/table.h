@@ -34,6 +34,9 @@ struct Document {
     std::vector<Structure> structure{};  ///< of what was visited
     std::string view{};                  ///< stands for %V in the names of files
     bool view_in_names = false;          ///< whether a name had it
+    std::optional<int> frame{};          ///< fills places for a number in names, but those of the G-buffer
+    std::vector<std::filesystem::path> frame_files{};  ///< those names
+    std::vector<std::filesystem::path> files{};        ///< that were read or will be, but the G-buffer's
 };
 
 /// Allowed numbers. Kernels compute in float32, so nothing passes that float32 cannot hold.
@@ -105,9 +108,12 @@ public:
         return read_rows(key, out.data()->data(), N);
     }
 
-    /// An input file that has to exist. With a frame pattern (#### or %04d) only its folder has to.
-    enum class FramePattern { refused, allowed };
-    bool read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern = FramePattern::refused);
+    /// A file's name, in which $NAME stands for a variable of the environment and %V for the view.
+    bool read_name(std::string_view key, std::string& out);
+    /// An input file that has to exist. A place for a frame number (#### or %04d) is filled with the document's, or
+    /// kept, and then only the folder has to exist.
+    enum class FramePattern { filled, kept };
+    bool read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern = FramePattern::filled);
 
     /// One of a few names.
     template <class T>
@@ -134,6 +140,7 @@ public:
 
     bool has(std::string_view key) const { return !visits() && values_->contains(key); }
     bool is_array(std::string_view key) const { return !visits() && (*values_)[key].is_array(); }
+    bool is_integer(std::string_view key) const { return !visits() && (*values_)[key].is_integer(); }
     bool is_table(std::string_view key) const { return !visits() && (*values_)[key].is_table(); }
     bool is_bad(std::string_view key) const { return bad_.contains(key); }
 

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/environment.h"
 #include "base/names.h"
+#include "io/frame_path.h"
 #include "scene/files.h"
 #include "scene/table.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::scene {
 namespace {
@@ -212,9 +215,16 @@ bool Table::read(std::string_view key, std::vector<std::string>& out) {
     return true;
 }
 
-bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern) {
-    std::string name = visits() ? out.string() : "";
-    if (!read(key, name)) return false;
+bool Table::read_name(std::string_view key, std::string& out) {
+    std::string name = out;
+    if (!read(key, name, Compiled::no)) return false;
+    std::error_code ignored;
+    try {
+        if (!visits() && !std::filesystem::exists(document_->folder / name, ignored)) name = with_environment(name);
+    } catch (const Error& error) {
+        complain(key, fmt::format("is {}: {}", quote(name), error.what()));
+        return false;
+    }
     if (const auto place = name.find("%V"); place != std::string::npos) {
         if (document_->view.empty()) {
             complain(key,
@@ -224,15 +234,28 @@ bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePat
         name.replace(place, 2, document_->view);
         document_->view_in_names = true;
     }
-    const std::filesystem::path file = (document_->folder / name).lexically_normal();
+    out = std::move(name);
+    return true;
+}
+
+bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePattern pattern) {
+    std::string name = visits() ? out.string() : "";
+    if (visits()) note(key, name);
+    if (!read_name(key, name)) return false;
+    std::filesystem::path file = (document_->folder / name).lexically_normal();
+    if (pattern == FramePattern::filled && has_frame_pattern(file)) {
+        document_->frame_files.push_back(file);
+        if (document_->frame) file = frame_path(file, *document_->frame);
+    }
     if (document_->check_files) {
-        const std::string problem = why_not_readable(file, pattern == FramePattern::allowed,
+        const std::string problem = why_not_readable(file, pattern == FramePattern::kept,
                                                      visits() ? "the working directory" : "the scene's folder");
         if (!problem.empty()) {
             complain(key, fmt::format("is {}: {}", quote(name), problem));
             return false;
         }
     }
+    if (pattern == FramePattern::filled) document_->files.push_back(file);
     out = file;
     return true;
 }

@@ -1,174 +1,218 @@
 #include "tools/render.h"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 
-#include "budget/error_sample.h"
 #include "device/guarded.h"
+#include "io/provenance.h"
 #include "layers/kinds.h"
-#include "run/condition.h"
 #include "run/frame_run.h"
 #include "run/open_frame.h"
+#include "run/output_names.h"
 #include "tools/frame_lights.h"
 #include "tools/frame_warnings.h"
+#include "tools/scene_passes.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 
 namespace {
 
-/// Makes the passes of a run, and keeps the last one while frames fit it.
-class Passes {
-public:
-    Passes(const Device& device, const Scene& scene, TextureStore& store, PhaseClock& clock, RenderReport& report)
-        : device_(device), scene_(scene), store_(store), clock_(clock), report_(report) {}
-
-    Pass& get(const Frame& frame, const PassOptions& options) {
-        if (pass_ && same_shape(frame, built_for_) && options.fp64 == built_with_.fp64 &&
-            options.precision == built_with_.precision) {
-            pass_->set_camera(frame.camera);
-            return *pass_;
-        }
-        pass_.emplace(
-            clock_.measure(PhaseClock::build, [&] { return evaluate(device_, scene_, frame, options, &store_); }));
-        report_.upload += pass_->impl().texture_seconds;
-        report_.cache_hit = pass_->impl().built.source == BuildSource::disk;
-        built_for_ = frame, built_with_ = options;
-        return *pass_;
-    }
-
-private:
-    const Device& device_;
-    const Scene& scene_;
-    TextureStore& store_;
-    PhaseClock& clock_;
-    RenderReport& report_;
-    std::optional<Pass> pass_;
-    Frame built_for_;
-    PassOptions built_with_;
-};
-
-/// A budget with what measures it on the frames of one shape.
-struct KeptBudget {
-    Budget budget;
-    ErrorSample sample;
-};
-
 PrecisionChoice everything_in(Precision precision, std::size_t layers) {
     if (precision == Precision::fp64) return {.fp64 = true};
     return {.precision = {precision, std::vector(layers, precision)}};
 }
 
-PassOptions options_of(const PrecisionChoice& choice) {
-    PassOptions options{.fp64 = choice.fp64};
-    if (!choice.fp64) options.precision = choice.precision;
-    return options;
+void add_new(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+    for (const std::string& line : more)
+        if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
 }
 
-RenderReport render_frames(const Scene& given, const RenderOptions& options) {
-    RenderReport report;
-    PhaseClock clock;
-    const std::vector<int> frames = options.frames.empty() ? std::vector<int>{0} : options.frames;
-    std::optional<Scene> lit;
-    if (wants_lights(given)) {  // those of the first frame for all: lights that are fitted anew would flicker
-        const FrameLights fitted = clock.measure(PhaseClock::read, [&] { return lights_of_frame(given, frames[0]); });
-        report.lights = summary(fitted);
-        lit = with_lights(given, fitted);
-    }
-    const Scene& scene = lit ? *lit : given;
-    Device device = clock.measure(PhaseClock::build, [&] { return Device::open(options.device); });
-    if (options.lanes != 0) device.info.lanes = options.lanes;
-    TextureStore store(device);
-    Passes passes(device, scene, store, clock, report);
-    std::optional<KeptBudget> kept;
-    std::optional<Condition> condition;
-    Frame condition_for;
-    MaskMatches matches(scene);
-    for (std::size_t f = 0; f < frames.size(); ++f) {
-        GBufferReader reader = clock.measure(PhaseClock::read, [&] { return open_frame(scene, frames[f]); });
-        const FrameCamera camera =
-            clock.measure(PhaseClock::read, [&] { return camera_of_frame(scene, reader, frames[f]); });
-        report.cameras.push_back(camera.origin + "; " + describe_residual(camera));
-        for (const std::string& line : frame_warnings(scene, reader, camera))
-            if (std::ranges::find(report.warnings, line) == report.warnings.end()) report.warnings.push_back(line);
-        const Frame frame = frame_of(scene, reader, camera);
-        std::optional<int> number;
-        if (!options.frames.empty()) number = frames[f];
-        check_outputs(scene, reader, options.directory, number);
-        matches.begin(frame, reader.object_storage());
-        if (scene.budget.max_error && !(kept && kept->sample.fits(frame)))
-            kept.emplace(clock.measure(PhaseClock::build, [&] {
-                return KeptBudget{Budget(scene, camera_kind(frame.camera, frame.size), costs_of(device.info)),
-                                  ErrorSample(device, scene, frame, scene.budget, &store)};
-            }));
-        if (scene.output.condition) {
-            if (!condition || !same_shape(frame, condition_for))
-                condition.emplace(
-                    clock.measure(PhaseClock::build, [&] { return Condition(device, scene, frame, &store); }));
-            condition_for = frame;
-            condition->set_camera(frame.camera);
-        }
-        const auto evaluated = [&](const PassOptions& how, FrameOutputs* outputs) {
-            Pass& pass = passes.get(frame, how);
-            FrameRun run(pass.impl(), reader, clock);
-            run.match_masks(matches);
-            if (outputs != nullptr) {
-                run.write_to(*outputs);
-                if (condition) run.add_condition(*condition);
-                run.repeat(options.repeat);
+/// What frames are evaluated on. It is made for the first one that has to be.
+struct OpenDevice {
+    OpenDevice(Device opened) : device(std::move(opened)), store(device) {}
+
+    Device device;
+    TextureStore store;
+};
+
+/// The frames of a run, one after another.
+class FrameLoop {
+public:
+    FrameLoop(const Scene& scene, const RenderOptions& options)
+        : scene_(scene), options_(options), frames_(options.frames.empty() ? std::vector<int>{0} : options.frames) {}
+
+    RenderReport run() {
+        for (done_ = 0; done_ < frames_.size(); ++done_) {
+            FrameReport frame{.frame = frames_[done_]};
+            const auto start = PhaseClock::Clock::now();
+            try {
+                guarded("render", [&] { frame.state = render_frame(frame); });
+            } catch (const Error& error) {
+                if (!options_.keep_going) throw;
+                frame.state = FrameReport::State::failed;
+                frame.error = error.what();
+                report_.failed.push_back(frame);
+                passes_.reset();  // whatever state they are in
             }
-            if (kept) run.check_bands(kept->sample, frame.camera);
-            const double seconds = run.run([&](double share) {
-                if (options.progress && outputs != nullptr)
-                    options.progress((static_cast<double>(f) + share) / static_cast<double>(frames.size()));
-            });
-            clock.measure(PhaseClock::build, [&] { pass.impl().save(); });
-            return seconds;
-        };
+            frame.seconds = std::chrono::duration<double>(PhaseClock::Clock::now() - start).count();
+            report_.files.insert(report_.files.end(), frame.files.begin(), frame.files.end());
+            if (options_.frame_done) options_.frame_done(frame);
+        }
+        finish_report();
+        return std::move(report_);
+    }
+
+private:
+    std::optional<int> given(int frame) const { return options_.frames.empty() ? std::nullopt : std::optional(frame); }
+
+    bool is_finished(int frame, const std::string& provenance) const {
+        const auto files = OutputNames(scene_, options_.directory, given(frame)).all();
+        return std::ranges::all_of(files, [&](const auto& file) { return io::is_finished(file, provenance); });
+    }
+
+    void open_device() {
+        if (on_) return;
+        Device device = clock_.measure(PhaseClock::build, [&] { return Device::open(options_.device); });
+        if (options_.lanes != 0) device.info.lanes = options_.lanes;
+        on_.emplace(std::move(device));
+        report_.device = on_->device.info;
+    }
+
+    /// The scene with lights fitted to its picture, where it wants some: those of the first frame for all of them, as
+    /// lights that are fitted anew would flicker.
+    Scene lit(const Scene& scene) {
+        if (!wants_lights(scene)) return scene;
+        if (!lights_) {
+            lights_ = clock_.measure(PhaseClock::read, [&] { return lights_of_frame(scene, frames_.front()); });
+            report_.lights = summary(*lights_);
+        }
+        return with_lights(scene, *lights_);
+    }
+
+    /// What was made for another scene goes, but the textures that both have.
+    void take(const Scene& scene) {
+        MaskMatches matches(scene);
+        if (!matches_ || !matches_->looks_for_the_same(matches)) {
+            if (matches_) add_new(report_.warnings, matches_->warnings());
+            matches_ = std::move(matches);
+        }
+        passes_.emplace(on_->device, scene, on_->store, clock_, report_);
+    }
+
+    FrameReport::State render_frame(FrameReport& report) {
+        const int number = report.frame;
+        const std::string provenance = options_.provenance ? options_.provenance(number) : std::string{};
+        if (options_.resume && is_finished(number, provenance)) {
+            ++report_.skipped;
+            return FrameReport::State::skipped;
+        }
+        open_device();
+        if (options_.scene_of_frame) {
+            take(lit(clock_.measure(PhaseClock::read, [&] { return options_.scene_of_frame(number); })));
+            on_->store.keep_latest();
+        } else if (!passes_) {
+            take(lit(scene_));
+        }
+        const Scene& scene = passes_->scene();
+        GBufferReader reader = clock_.measure(PhaseClock::read, [&] { return open_frame(scene, number); });
+        const FrameCamera camera =
+            clock_.measure(PhaseClock::read, [&] { return camera_of_frame(scene, reader, number); });
+        report_.cameras.push_back(camera.origin + "; " + describe_residual(camera));
+        warn(frame_warnings(scene, reader, camera));
+        const Frame frame = frame_of(scene, reader, camera);
+        check_outputs(scene, reader, options_.directory, given(number));
+        matches_->begin(frame, reader.object_storage());
+        evaluate(frame, reader, provenance, report);
+        report_.pixels += std::uint64_t{frame.size.width} * frame.size.height;
+        ++report_.frames;
+        return FrameReport::State::written;
+    }
+
+    void warn(const std::vector<std::string>& warnings) {
+        if (options_.strict && !warnings.empty()) throw Error(warnings.front() + " (--strict)");
+        add_new(report_.warnings, warnings);
+    }
+
+    /// Evaluates until the error budget is kept, if there is one, and only then gives the files their names.
+    void evaluate(const Frame& frame, const GBufferReader& reader, const std::string& provenance, FrameReport& report) {
+        const Scene& scene = passes_->scene();
+        ScenePasses::Measured* const budget = passes_->budget(frame);
         for (bool done = false; !done;) {
-            const PassOptions how =
-                options_of(kept ? kept->budget.choice() : everything_in(options.precision, scene.layers.size()));
-            FrameOutputs outputs(scene, passes.get(frame, how).impl(), reader, options.directory, number);
-            const double seconds = evaluated(how, &outputs);
-            done = !kept || kept->budget.accept(kept->sample.stats());
+            const PrecisionChoice how =
+                budget != nullptr ? budget->budget.choice() : everything_in(options_.precision, scene.layers.size());
+            Pass& pass = passes_->pass(frame, how);
+            warn(on_->store.doubts());
+            FrameOutputs outputs(scene, pass.impl(), reader, options_.directory, given(report.frame), provenance);
+            const double seconds = run(frame, reader, how, &outputs);
+            done = budget == nullptr || budget->budget.accept(budget->sample.stats());
             if (done) {
-                report.kernels += seconds;
-                clock.measure(PhaseClock::write, [&] { outputs.finish(report.files); });
+                report_.kernels += seconds;
+                clock_.measure(PhaseClock::write, [&] { outputs.finish(report.files); });
             } else {
-                kept->budget.raise(kept->sample.stats(), [&](const PrecisionChoice& choice) {
-                    evaluated(options_of(choice), nullptr);
-                    return kept->sample.stats();
+                budget->budget.raise(budget->sample.stats(), [&](const PrecisionChoice& choice) {
+                    run(frame, reader, choice, nullptr);
+                    return budget->sample.stats();
                 });
             }
         }
-        report.pixels += std::uint64_t{frame.size.width} * frame.size.height;
-        ++report.frames;
     }
-    report.warnings.insert(report.warnings.end(), store.doubts().begin(), store.doubts().end());
-    const auto unmatched = matches.warnings();
-    report.warnings.insert(report.warnings.end(), unmatched.begin(), unmatched.end());
-    if (kept) report.budget = kept->budget.report();
-    report.device = device.info;
-    for (const Layer& layer : scene.layers) report.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
-    report.read = clock.seconds(PhaseClock::read);
-    report.build = clock.seconds(PhaseClock::build) - report.upload;
-    report.write = clock.seconds(PhaseClock::write);
-    report.check = clock.seconds(PhaseClock::check);
-    report.kernel_ns_per_pixel = report.kernels / static_cast<double>(report.pixels) * 1e9;
-    report.outside = clock.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
-    report.wall = clock.wall();
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    report.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-    return report;
-}
+
+    /// Evaluates once; without outputs only to measure. Returns the seconds that kernels took.
+    double run(const Frame& frame, const GBufferReader& reader, const PrecisionChoice& how, FrameOutputs* outputs) {
+        Pass& pass = passes_->pass(frame, how);
+        FrameRun run(pass.impl(), reader, clock_);
+        run.match_masks(*matches_);
+        if (outputs != nullptr) {
+            run.write_to(*outputs);
+            if (Condition* const condition = passes_->condition(frame)) run.add_condition(*condition);
+            run.repeat(options_.repeat);
+        }
+        if (auto* const budget = passes_->budget(frame)) run.check_bands(budget->sample, frame.camera);
+        const double seconds = run.run([&](double share) {
+            if (options_.progress && outputs != nullptr)
+                options_.progress((static_cast<double>(done_) + share) / static_cast<double>(frames_.size()));
+        });
+        clock_.measure(PhaseClock::build, [&] { pass.impl().save(); });
+        return seconds;
+    }
+
+    void finish_report() {
+        if (matches_) add_new(report_.warnings, matches_->warnings());
+        if (passes_ && passes_->last_budget()) report_.budget = passes_->last_budget()->budget.report();
+        for (const Layer& layer : scene_.layers) report_.layers += kind_of(layer_kinds(), layer).ends_stage ? 0 : 1;
+        report_.read = clock_.seconds(PhaseClock::read);
+        report_.build = clock_.seconds(PhaseClock::build) - report_.upload;
+        report_.write = clock_.seconds(PhaseClock::write);
+        report_.check = clock_.seconds(PhaseClock::check);
+        report_.kernel_ns_per_pixel =
+            report_.pixels == 0 ? 0 : report_.kernels / static_cast<double>(report_.pixels) * 1e9;
+        report_.outside = clock_.outside({PhaseClock::read, PhaseClock::kernels, PhaseClock::check, PhaseClock::write});
+        report_.wall = clock_.wall();
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        report_.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    }
+
+    const Scene& scene_;  ///< that of any frame, where they differ
+    const RenderOptions& options_;
+    const std::vector<int> frames_;
+    RenderReport report_;
+    PhaseClock clock_;
+    std::optional<OpenDevice> on_;
+    std::optional<FrameLights> lights_;
+    std::optional<ScenePasses> passes_;
+    std::optional<MaskMatches> matches_;
+    std::size_t done_ = 0;
+};
 
 }  // namespace
 
 RenderReport render(const Scene& scene, const RenderOptions& options) {
-    return guarded("render", [&] { return render_frames(scene, options); });
+    return guarded("render", [&] { return FrameLoop(scene, options).run(); });
 }
 
 }  // namespace wrinkle

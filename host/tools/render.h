@@ -11,13 +11,32 @@
 
 namespace wrinkle {
 
+/// What became of a frame.
+struct FrameReport {
+    enum class State { written, skipped, failed };
+    int frame = 0;
+    State state = State::written;
+    double seconds = 0;
+    std::string error{};                         ///< why it failed
+    std::vector<std::filesystem::path> files{};  ///< that were written
+};
+
 struct RenderOptions {
     std::filesystem::path directory = "out";
-    std::vector<int> frames;                    ///< empty: the scene's file as it is
+    std::vector<int> frames;  ///< empty: the scene's file as it is
+    /// The scene of a frame, where textures, tables or volumes differ from frame to frame.
+    std::function<Scene(int frame)> scene_of_frame;
     std::string device;                         ///< as Device::open takes it
     int lanes = 0;                              ///< pixels a work-item: 1, 4, 8 or 16; 0: the device's choice
     int repeat = 1;                             ///< enqueue the kernels this often, to time them
     Precision precision = Precision::standard;  ///< of everything, where the scene has no error budget
+    /// The hash of all that goes into a frame's files, which is written into them; nothing: none is.
+    std::function<std::string(int frame)> provenance;
+    bool resume = false;      ///< skips frames whose files are there, with their provenance
+    bool keep_going = false;  ///< after a frame that failed
+    bool strict = false;      ///< frames that are warned of fail
+    /// Called after each frame.
+    std::function<void(const FrameReport&)> frame_done;
     /// Called with the share of the work done, [0,1].
     std::function<void(double)> progress;
 };
@@ -25,7 +44,9 @@ struct RenderOptions {
 /// What `wrinkle run` reports of a run.
 struct RenderReport {
     std::uint64_t pixels = 0;
-    int layers = 0, frames = 0;
+    int layers = 0, frames = 0;  ///< frames that were evaluated
+    int skipped = 0;
+    std::vector<FrameReport> failed;
     DeviceInfo device;
     bool cache_hit = false;
     double read = 0, upload = 0, build = 0, kernels = 0, check = 0, write = 0;  ///< seconds; phases overlap

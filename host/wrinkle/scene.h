@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "wrinkle/frame_source.h"
@@ -27,6 +28,15 @@ struct Filter {
     bool light_mean = false;  ///< light falls on the mean normal, made rougher, instead of on every point
 };
 
+/// How EXR files are compressed: 16 or 1 rows at a time without loss, lossy, or not at all.
+enum class Compression { zip, zips, dwaa, none };
+
+/// What channels with components are called.
+enum class ChannelNames {
+    layers,  ///< normal.X, which Nuke shows as a layer
+    passes,  ///< N.x, as renderers call theirs
+};
+
 struct Output {
     bool roughness = false;         ///< the frame's or the scene's, as the bumps of a pixel's area widen it
     bool slope_covariance = false;  ///< of the bumps in a pixel's area, along the image's axes on the surface
@@ -34,7 +44,11 @@ struct Output {
     bool condition = false;    ///< how the normal magnifies input errors; by render(), not by a pass (run/condition.h)
     bool passthrough = false;  ///< copy the channels and metadata of the input
     bool half = false;         ///< 16-bit floats
-    bool png = true;           ///< lit.png beside lit.exr when relighting; normal.png too
+    int png = 8;               ///< bits of a channel, 8 or 16; 0: no PNGs
+    std::vector<std::string> pictures{"normal", "lit", "before"};  ///< the PNGs that are wanted
+    std::string name{};  ///< of EXR files, with a place for a frame number; "<picture>" in it: of all, each its own
+    Compression compression = Compression::zip;
+    ChannelNames channel_names = ChannelNames::layers;
 };
 
 /// How large an error of the normals may be, and how it is measured: a seeded sample of pixels is evaluated in double.

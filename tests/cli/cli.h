@@ -22,6 +22,15 @@ inline std::string read_text(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// The bytes of a picture's pixels: files differ by their provenance as well.
+inline std::vector<unsigned char> pixels_of(const fs::path& file) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (!input) return {};
+    std::vector<unsigned char> bytes(input->spec().image_pixels() * static_cast<std::size_t>(input->spec().nchannels));
+    EXPECT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeUInt8, bytes.data())) << input->geterror();
+    return bytes;
+}
+
 struct Ran {
     int code = -1;    ///< exit status; 128 + the signal's number when a signal ended it
     std::string out;  ///< what it printed

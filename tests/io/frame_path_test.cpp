@@ -15,7 +15,13 @@ TEST(FramePath, FillsInTheNumber) {
     EXPECT_EQ(frame_path("shot##/b.###.exr", 1), "shot##/b.001.exr");
     EXPECT_EQ(frame_path("v#2/plain.exr", 1), "v#2/plain.exr");
     EXPECT_EQ(frame_path("b.%12d.exr", 7), "b.000000000007.exr");
+    EXPECT_EQ(frame_path("b.$F4.exr", 7), "b.0007.exr");
+    EXPECT_EQ(frame_path("b_$F_v2.exr", 7), "b_7_v2.exr");
+    EXPECT_EQ(frame_path("b.<frame>.exr", 7), "b.7.exr");
+    EXPECT_EQ(frame_path("b.<frame04>.exr", 7), "b.0007.exr");
     EXPECT_TRUE(has_frame_pattern("b.####.exr"));
+    EXPECT_FALSE(has_frame_pattern("b.$FOO.exr"));
+    EXPECT_FALSE(has_frame_pattern("b.<frames>.exr"));
     EXPECT_FALSE(has_frame_pattern("b%.exr"));
     EXPECT_FALSE(has_frame_pattern("shot##/b.exr"));
 }
@@ -27,6 +33,7 @@ TEST(FramePath, AFileOfThatVeryNameWins) {
     test::write_text(file, "");
     EXPECT_FALSE(has_frame_pattern(file));
     EXPECT_EQ(frame_path(file, 1), file);
+    EXPECT_EQ(with_frame(file.filename(), 1), "shot12.exr");
 }
 
 }  // namespace

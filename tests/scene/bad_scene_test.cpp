@@ -112,7 +112,7 @@ TEST_F(BadScene, MissingFiles) {
                          (folder_ / "textures/wal.png").string()});
     expect_problem_with(layer("kind = \"normal_map\"\ntexture = \"textures\"\n"), 7, {"is a folder, not a file"});
     expect_problem_with(layer("kind = \"normal_map\"\ntexture = \"textures/%04d.png\"\n"), 7,
-                        {"frame patterns are for"});
+                        {"holds a place for a frame number, and none is given"});
     expect_problem_with(noise("mask = { texture = \"dirt.png\" }\n"), 7, {"mask of", "dirt.png"});
     expect_problem("[camera]\nfrom = \"exr\"\n[gbuffer]\nfile = \"none.exr\"\n", 4,
                    {"in [gbuffer]", "there is no file"});
