@@ -84,11 +84,18 @@ typedef struct {
 #define WR_VOLUME_FIRST 3   // three words, signed: index of the first voxel of the first block
 #define WR_VOLUME_INDEX 6   // where in the texel buffer the blocks' offsets begin
 
+// Columns of a block of pixels (surface/pixel_block.clh), whose rows are loaded by vload4. Host and kernels count the
+// blocks of a frame by it.
+#define WR_BLOCK_WIDTH 4
+
 // Bins of decals: pixels of a tile; 4 x 4 tiles are a block, 4 x 4 blocks a super block.
 #define WR_TILE_WIDTH_LOG2 4
 #define WR_TILE_HEIGHT_LOG2 3
 #define WR_TILE_WIDTH (1 << WR_TILE_WIDTH_LOG2)
 #define WR_TILE_HEIGHT (1 << WR_TILE_HEIGHT_LOG2)
+// A super block of 16 x 16 tiles, in pixels.
+#define WR_SUPER_WIDTH (16 * WR_TILE_WIDTH)
+#define WR_SUPER_HEIGHT (16 * WR_TILE_HEIGHT)
 #define WR_TILES_OF_SUPER 256
 // Number of tile (x, y), of which `supers` super blocks make a row. Children are numbered within their parent, so
 // those of block or super block i are 16 i to 16 i + 15. A macro, as kernels number whole vectors of lanes.

@@ -55,8 +55,7 @@ void print_bins(const Plan& plan, const BinReport& bins) {
     fmt::print("\ntables of decals: {} rows, {:.1f} MB of tables, bounds and room for lists on the device\n",
                plan.projectors, static_cast<double>(bins.bytes) / 1e6);
     fmt::print("  bins: tiles of {0} x {1} pixels, listed from the top down: all, {2} x {3}, {4} x {5}, {0} x {1}\n",
-               WR_TILE_WIDTH, WR_TILE_HEIGHT, 16 * WR_TILE_WIDTH, 16 * WR_TILE_HEIGHT, 4 * WR_TILE_WIDTH,
-               4 * WR_TILE_HEIGHT);
+               WR_TILE_WIDTH, WR_TILE_HEIGHT, WR_SUPER_WIDTH, WR_SUPER_HEIGHT, 4 * WR_TILE_WIDTH, 4 * WR_TILE_HEIGHT);
     fmt::print("  lists of this frame: {} of {} tiles have decals; {:.1f} a tile that has any, at most {}; {} bytes\n",
                bins.touched, bins.tiles, static_cast<double>(bins.entries) / std::max<double>(bins.touched, 1),
                bins.longest, sizeof(std::uint32_t) * bins.entries);

@@ -11,7 +11,6 @@ namespace wrinkle {
 
 namespace {
 
-constexpr std::uint32_t kSuperWidth = 16 * WR_TILE_WIDTH, kSuperHeight = 16 * WR_TILE_HEIGHT;
 constexpr std::uint32_t kEntriesOfTile = 128;  // room for lists, on average; beyond it tiles share their parents' lists
 constexpr std::uint32_t kMostEntries = 1u << 28;
 constexpr std::size_t kGroup = 64;
@@ -90,8 +89,8 @@ void DecalBins::make_room(std::uint32_t supers) {
 cl::Event DecalBins::enqueue(const cl::Buffer& frame, const cl::Buffer& numbers, const std::vector<cl::Buffer>& in,
                              const Rows& rows, std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
                              const std::vector<cl::Event>& wait) {
-    supers_a_row_ = supers_of(width, kSuperWidth);
-    supers_ = supers_a_row_ * supers_of(rows.count, kSuperHeight);
+    supers_a_row_ = supers_of(width, WR_SUPER_WIDTH);
+    supers_ = supers_a_row_ * supers_of(rows.count, WR_SUPER_HEIGHT);
     make_room(supers_);
     const cl_uint tiles = supers_ * WR_TILES_OF_SUPER, blocks = tiles / 16;
     std::vector<cl::Event> after = wait;

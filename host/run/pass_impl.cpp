@@ -30,8 +30,6 @@ std::size_t group_size(const PlannedKernel& kernel, int lanes) {
     return lanes > 1 && kernel.operations > kLong ? 8 : 64;
 }
 
-constexpr std::size_t kBlockWidth = 4;  // of kernels/surface/pixel_block.clh
-
 /// How many groups of `size` hold `count`.
 std::size_t groups_of(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
 
@@ -176,11 +174,11 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
                               const std::vector<cl::Event>& wait, std::span<const Items> some) {
     const std::size_t pixels = std::size_t{rows.count} * size.width;
     const auto lanes = static_cast<std::size_t>(options.lanes);
-    const std::size_t block_rows = lanes / kBlockWidth;
+    const std::size_t block_rows = lanes / WR_BLOCK_WIDTH;
     const bool blocks =
-        plan.blocks && some.empty() && block_rows > 1 && size.width >= kBlockWidth && rows.count >= block_rows;
+        plan.blocks && some.empty() && block_rows > 1 && size.width >= WR_BLOCK_WIDTH && rows.count >= block_rows;
     const std::size_t items =
-        blocks ? groups_of(size.width, kBlockWidth) * groups_of(rows.count, block_rows) : groups_of(pixels, lanes);
+        blocks ? groups_of(size.width, WR_BLOCK_WIDTH) * groups_of(rows.count, block_rows) : groups_of(pixels, lanes);
     const std::size_t touched = groups_of(pixels, lanes) * lanes;  // whole lane groups
     const std::size_t before = std::size_t{rows.before} * size.width;
     const std::size_t in_pixels = before + pixels + std::size_t{rows.after} * size.width;
