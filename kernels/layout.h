@@ -68,7 +68,8 @@ typedef struct {
     WR_SCALAR albedo[3];          // where the frame has none
     WR_SCALAR roughness;          // where the frame has none
     WR_SCALAR f0;                 // reflectance at normal incidence
-    WR_SCALAR max_ratio, lights;  // bound of wr_relight_ratio; number of lights
+    WR_SCALAR max_ratio;          // bound of wr_relight_ratio
+    WR_SCALAR lights;             // how many lights there are
     WR_SCALAR shadow;             // share of a light's radiance that a picture shows of other light in its shadow
 } wr_lighting;
 

@@ -135,8 +135,8 @@ void add_limit_options(CLI::App& app) {
                     .volume_reader = "/proc/self/exe"});
         memory_limit();  // says now what is wrong with WRINKLE_MEMORY
     });
-    for (CLI::App* command :
-         app.get_subcommands({}))  // they may stand behind one as well, but for one that hands all on
+    // These options may also follow the name of a command, except of `bench`, which hands all its arguments on.
+    for (CLI::App* command : app.get_subcommands({}))
         if (!command->get_prefix_command()) command->fallthrough();
 }
 

@@ -30,8 +30,8 @@ std::string build_flags(const BuildOptions& options);
 /// Throws Error with the compiler's log, file:line of the kernel file.
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options);
 
-/// Writes the program to its cache file, beside first, then renamed. Called after its kernels ran once, so that what
-/// the driver compiles at the first call is in it too. A cache that cannot be written is no error.
+/// Writes the program to its cache file, which appears when it is complete. Called after its kernels ran once, so that
+/// what the driver compiles at the first call is in it too. A cache that cannot be written is no error.
 void save_program(const BuiltProgram& built);
 
 }  // namespace wrinkle

@@ -18,8 +18,9 @@ std::filesystem::path cache_file(const std::string& key);
 /// another key with the same hash.
 std::vector<unsigned char> read_program(const std::filesystem::path& file, const std::string& key);
 
-/// Writes a program beside its file first, then renames it, and deletes the programs that were not used for longest
-/// where the folder then holds more than `limit` bytes of them. A cache that cannot be written is no error.
+/// Writes a program to its cache file, which appears complete or not at all, and then deletes the programs that were
+/// not used for longest where the folder holds more than `limit` bytes of them. A cache that cannot be written is no
+/// error.
 void write_program(const std::filesystem::path& file, const std::string& key, const std::vector<unsigned char>& binary,
                    std::uintmax_t limit = std::uintmax_t{256} << 20);
 

@@ -45,8 +45,9 @@ private:
     /// Brings rows [y, y_end) of the data window into the scratch memory, with the rest of their blocks. Returns the
     /// row that the scratch memory begins with.
     int fetch(const Range& range, int y, int y_end);
-    /// Brings rows [y, y_end) into the scratch memory if they lie in a block that is kept, or are few enough to be a
-    /// glance, after which theirs is. False when they have to be fetched.
+    /// Puts rows [y, y_end) into the scratch memory if they lie in a block that is kept. If they are few, as for a
+    /// quick look at the frame, it first decompresses their block and keeps it, where there is room. Returns false for
+    /// all other rows, which have to be fetched.
     bool glance(const Range& range, int y, int y_end);
     /// Fast where ZIP blocks allow it, else by OpenImageIO.
     bool read_rows(const Range& range, int y_begin, int y_end, std::span<float> out);

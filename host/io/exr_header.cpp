@@ -25,8 +25,8 @@ constexpr std::size_t kLongestName = 255;
 constexpr std::array<std::string_view, 9> kLayout{"channels", "compression", "dataWindow", "displayWindow", "lineOrder",
                                                   "tiles",    "type",        "chunkCount", "version"};
 
-/// What values of a type take in a file, where that is always the same. OpenEXR reads so much of them whatever size the
-/// file states, and what it takes for the next attribute then is another one than for others.
+/// Types of attributes that have a fixed size, in bytes. OpenEXR always reads that many bytes, even where the header
+/// states another size, and would then take the wrong bytes for the next attribute.
 constexpr std::pair<std::string_view, std::int32_t> kSizes[] = {{"box2i", 16},
                                                                 {"box2f", 16},
                                                                 {"chromaticities", 32},

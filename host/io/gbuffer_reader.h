@@ -49,7 +49,8 @@ public:
     ChannelType channel_type(std::string_view channel) const;
     /// Rows that are compressed together, at most: reading one takes as long as reading all of them.
     std::uint32_t block_rows() const;
-    /// How many such blocks may be read where a glance has to do, `most` at most: fewer, the more each one holds.
+    /// How many such blocks may be read for a quick look at the frame, `most` at most. Frames of large blocks (many
+    /// rows, many channels) allow fewer.
     std::uint32_t blocks_at_a_glance(std::uint32_t most) const;
     /// Rows to look at where a few have to do: at most 9, spread over the frame, the middle one first. Each costs a
     /// block of the file, once: looks that keep to these rows and the next ones share what was decompressed.

@@ -19,9 +19,9 @@ bool is_component(const std::string& channel) {
     return channel.size() == 1 || words.contains(lower(channel));
 }
 
-/// Some writers of multi-part files put the layer's name into the part's: part "N" has channels X, Y, Z, and X becomes
-/// "N.X" here. The picture's channels keep their names: those of a part called rgba, or of the first part, unless that
-/// is called as the layer of something else ("N" with R, G and B).
+/// The channel's name with its layer's. Some writers of multi-part files put the layer's name into the part's: channels
+/// X, Y, Z of part "N" mean N.X, N.Y, N.Z. The picture's channels keep their plain names; the picture is the part
+/// called rgba or rgb, or the first part unless its name is that of another layer ("N" with R, G, B).
 std::string full_name(const std::string& channel, const std::string& layer, bool first) {
     if (layer.empty() || !is_component(channel)) return channel;
     const auto plain = plain_layer_name(layer.substr(layer.rfind('.') + 1));

@@ -25,8 +25,8 @@ float label_of(std::uint32_t number) {
 
 bool is_whole(double number) { return number == std::floor(number); }
 
-/// The whole number that a float is near enough to be meant; else the float itself. Sums of weights round in the last
-/// of 24 bits, and a few times over.
+/// The whole number that a float is so near to that it must be meant; else the float itself. Filtered object numbers
+/// are sums of weights, off by a few roundings in the last of 24 bits.
 float rounded(float value) {
     constexpr float share = 1e-6f, least = 1e-3f;
     const float near = std::nearbyint(value);
@@ -44,7 +44,8 @@ double object_number(float label) {
     const bool itself = std::abs(label) <= static_cast<float>(kExact) && is_whole(label);
     if (itself) return label;
     const auto bits = std::bit_cast<std::uint32_t>(label);
-    // Few labels stand for two numbers, one of them with a flipped bit; that one is more likely than the other.
+    // A label whose exponent is 1 or 254 may be a number as it is, or one whose exponent bit was flipped to make it a
+    // normal float. The latter is taken, as the likelier one.
     const std::uint32_t exponent = bits >> 23 & 255;
     return exponent == 1 || exponent == 254 ? bits ^ kExponentBit : bits;
 }

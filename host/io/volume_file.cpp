@@ -32,8 +32,9 @@ constexpr std::uint64_t kVdbMagic = 0x56444220, kNvdbMagic = 0x304244566f6e614eu
 constexpr double kMostBlocks = 1 << 28;                                              // their index then takes 1 GiB
 constexpr double kMostAlongAnAxis = (1 << 24) / 8;  // kernels count voxels from the first in float
 constexpr int kFarthest = (1 << 27) - 1;            // block from the origin: voxels stay within int, with ring
-/// Bytes of index that a byte of file may ask for. Leaves take kilobytes of a file and an entry of the index, tiles
-/// nearly nothing and up to 2^27 entries; but a grid that is nearly all tiles is a small one.
+/// Bytes of index that a byte of the file may ask for, at most. A leaf takes kilobytes of the file and one entry of the
+/// index; a tile takes nearly nothing and may span 2^27 entries, so without a limit a small file could ask for any
+/// amount of memory. Sound grids that are mostly tiles span little.
 constexpr double kIndexExpansion = 1000;
 
 std::string list(const std::vector<ListedGrid>& grids) {

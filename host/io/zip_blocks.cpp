@@ -103,7 +103,8 @@ public:
 private:
     static constexpr std::uint8_t bias = 128;
 
-    /// The byte that `count` differences lead to from `last`: only their sum is needed.
+    /// The byte reached from `last` after `count` differences. They add up modulo 256, so only their sum is needed and
+    /// none of the bytes between.
     static std::uint8_t after(std::uint8_t last, const std::uint8_t* differences, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) last = static_cast<std::uint8_t>(last + differences[i]);
         return static_cast<std::uint8_t>(last - count * bias);

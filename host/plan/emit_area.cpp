@@ -183,7 +183,8 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
                 fmt::format("            {0} = wr_select(on, wr_fma({1}, share, {0}), {0});\n", sum.name, sum.value);
     if (use.spread || use.lights)
         text += "            wr_vec3 surface = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
-    // Before the slopes of the points are added to it, `finer` is what each of them shows of its own share of the area.
+    // Here `finer` still holds only how slopes vary within one point's share of the area, and that alone widens the
+    // light on the point; how they vary from point to point is added below.
     if (use.lights)
         text += add_light_text(
             emitter,

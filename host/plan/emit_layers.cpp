@@ -33,7 +33,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     std::string condition = "wr_any(active)";
     if (emitter.options.switches) condition = fmt::format("{} != 0 && {}", text.strength(), condition);
     const std::size_t index = emitter.index_of(layer);
-    section.body = mask.rest + (text.every_point ? fmt::format("        active = wanted_{};\n", index) : "") +
+    section.body = mask.rest + (text.active_at_any_point ? fmt::format("        active = wanted_{};\n", index) : "") +
                    (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
     if (!section.area) {

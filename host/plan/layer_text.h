@@ -12,13 +12,15 @@ struct LayerText {
     const Layer& layer;                       ///< the first of them
     const std::string who;                    ///< starts messages
     Section& section;
-    /// Values that are the same at every point of a pixel's area: their declarations, and the statements that set them
-    /// before the first point, skipped where no pixel wants the layer. Both are empty where a pixel is one point.
+    /// Parts of the text that hold for all points of a pixel's area: `declared`, declarations before the loop over the
+    /// points; `prepared`, statements before it, which are skipped where no pixel wants the layer. Both are empty where
+    /// there is no such loop.
     std::string declared{}, prepared{};
-    bool loses = false;  ///< `lost` is declared: what slopes vary by that are finer than a point's share of the area
-
-    bool every_point =
-        false;  ///< `active` is to hold, at each point of a pixel's area, the lanes that want the layer at any
+    /// The layer's text has declared `lost`: the covariance of slopes finer than one point's share of the area.
+    bool loses = false;
+    /// Set by a layer whose text, at one point, also needs the lanes that want the layer at another point only:
+    /// `active` then holds, at every point, all lanes that may want the layer at some point.
+    bool active_at_any_point = false;
 
     /// Kernel text of a number of the layer, or of three as a vector; `what` names it in messages.
     std::string number(const std::string& what, std::function<double(const Layer&)> of) {
@@ -50,8 +52,9 @@ struct LayerText {
     /// Whether the layer has to report the detail that a point's footprint averages away: it adds the covariance of
     /// those slopes to `finer`.
     bool tells_spread() const;
-    /// Adds to it the covariance `lost` of slopes along s and t, given the text of the surface gradients that a slope
-    /// of 1 along s, and one along t, makes. Empty unless tells_spread().
+    /// Text that adds to `finer` what `lost`, the covariance of slopes along s and t, is as one of surface gradients.
+    /// Empty unless tells_spread().
+    ///   along_s, along_t   text of the surface gradients that a slope of 1 along s, and one along t, makes
     std::string spread(const std::string& along_s, const std::string& along_t);
     /// Adds a volume gradient: to dh_dp, which is projected onto the surface later, or to g if the layer is not
     /// projected.

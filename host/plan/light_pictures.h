@@ -8,7 +8,7 @@
 
 namespace wrinkle {
 
-/// The layers of the frame that show lights of a scene alone, or a lobe of them, each once.
+/// Names of the frame's layers that show one light, or a few, of the scene alone, or a lobe of them, each name once.
 std::vector<std::string> pictures_of(const Lighting& lighting);
 
 /// The numbers of the pictures that show what of a light is diffuse, and what is specular: their places among those of
@@ -25,8 +25,8 @@ constexpr std::size_t kMostPictures = 16;
 /// Name of the value that holds the radiance that a picture shows; of 0: that which none does.
 const char* lit_name(std::size_t picture);
 
-/// The planes of a picture: those of the layer of this name, or of the only one whose name ends so after a dot. Throws
-/// Error, naming the light that wants it, and layers there are.
+/// The planes of the frame's layer called `picture`; if there is none, of the only layer whose name ends in a dot and
+/// that name. Throws Error, naming the light that wants it and the layers to choose from.
 std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::string& picture);
 
 }  // namespace wrinkle

@@ -253,8 +253,8 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
                    (options.compiled_numbers ? numbers_text(plan, {scene, available.cryptomatte}) : std::string()) +
                    user_text(emitter) + emitter.helpers + bins);
 
-    // Not in split plans, whose kernels add to planes: blocks may overlap, and a pixel would be added to twice. Not
-    // with neighbours, which are loaded as the row of pixels one further on.
+    // Blocks may overlap, so a pixel may be computed twice. Split kernels add to planes in memory and would add to such
+    // a pixel twice; and the code that loads neighbours expects a work-item's pixels one after another, not as a block.
     plan.blocks = plan.projectors > 0 && !plan.neighbours && !options.split;
 
     std::set<std::string> inputs;

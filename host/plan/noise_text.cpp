@@ -161,9 +161,10 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
     std::string text = area ? "        wr_real lost;\n" : "";
     std::string walk;
     if (area && at.emitter.scene.filter.taps > 1) {
-        // A layer may have several noises, each with octaves of its own to hold from point to point. A point's value
-        // may serve others, so what the point itself wants of the layer, by a texture of its mask, does not count.
-        at.every_point = true;
+        // Each noise keeps the values of its octaves from point to point, because one point's value may serve others.
+        // So values are computed wherever any point may want the layer, also where the mask's texture is 0 at this one.
+        at.active_at_any_point = true;
+        // A layer can have several noises: a triplanar has one for each plane.
         const std::string held = fmt::format("held_{}", 4 * first);
         at.declared += fmt::format("        wr_field {}[{}];\n", held, l.octaves);
         text += fmt::format("        wr_walk walk = {{tap, taps.count - (wr_real)((WR_SCALAR)tap), {}, {}}};\n",

@@ -68,7 +68,8 @@ struct EyePlace {
     Vec3 offset{};
     Periods period = 0;
     double fourth = 0;  ///< stored after the three: the frequency of an octave
-    bool low = false;   ///< gives, instead of the four numbers, what they lose when they are rounded to float
+    /// The buffer gets, in place of the four numbers, what rounding them to float loses: number - (float)number.
+    bool low = false;
 };
 
 /// What numbers of a plan are taken from: any scene of the structure that was planned.

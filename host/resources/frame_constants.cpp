@@ -209,7 +209,8 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
         out.lights.back().diffuse = static_cast<double>(numbers.diffuse);
         out.lights.back().specular = static_cast<double>(numbers.specular);
     }
-    // A sky that nobody has told of gives half of what a sun does at most: what is darker is taken for shadow.
+    // Without a sky in the scene, the light in shadows is unknown. A pixel of the picture that shows less than half of
+    // what the lights would give then counts as in full shadow.
     const bool dark = std::ranges::all_of(out.lighting.sky, [](double k) { return k == 0; });
     out.lighting.shadow = dark ? 0.5 : 0;
     put(out.lighting.albedo, lighting.albedo);

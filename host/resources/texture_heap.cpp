@@ -148,7 +148,8 @@ Image finest_level(const Image& image, const PlannedTexture& planned) {
 
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned) {
     Image level = finest_level(image, planned);
-    // All levels together are a third more; their borders, and the fourth float of three, are of no account.
+    // All levels together take 4/3 of the finest. Borders, and the unused fourth float of three-channel texels, are
+    // left out of this estimate.
     check_memory(planned.use.file.string(), sizeof(float) * 4.0 / 3 * static_cast<double>(level.texels.size()),
                  fmt::format("its mips from {} x {} texels on", level.width, level.height));
     const std::size_t words = heap.table.size();

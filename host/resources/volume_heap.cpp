@@ -139,8 +139,9 @@ private:
                         volume_.info.grid));
     }
 
-    /// Marks the blocks to fill: those that hold, or reach into, anything but background. A block deep within a
-    /// constant region, and nearly all of a grid may be one, gets that constant here, and is not looked at again.
+    /// Marks the blocks that may need voxels: those that hold, or touch a block that holds, more than background. A
+    /// block whose whole neighbourhood is one constant gets that constant here instead, without the work of gathering
+    /// its voxels; in a large grid that can be nearly all of them.
     void mark() {
         std::int32_t last = -1;
         std::size_t start = 0, place = 0;

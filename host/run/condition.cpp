@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kUnit = 0x1p-24 * 180 / std::numbers::pi;  // degrees
 
-/// Names, not measurements: the next float is another object.
+/// Planes that hold labels instead of measurements are not moved: the next float would be another object.
 bool is_label(const std::string& plane) {
     return plane == "object" || plane == "tangent_sign" || plane.starts_with("crypto.");
 }

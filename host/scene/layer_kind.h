@@ -37,8 +37,8 @@ struct NamedObject {
     std::string place{};  ///< "decals.csv:12"
 };
 
-/// How far a layer may move the point that a pixel shows, as kernel text, for what has to be found before the layer is
-/// evaluated.
+/// How far a layer may move the point that a pixel shows, as kernel text. Tiles of decals need it before any layer is
+/// evaluated, to cover every place where the point may end up.
 struct MovedPoint {
     std::string nearer, farther;  ///< metres along the ray, by n, v and distance
     bool by_normal = false;       ///< the text reads n, the base normal

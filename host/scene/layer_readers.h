@@ -41,8 +41,8 @@ void read_upscale(Table& table, TextureUse& texture);
 void read_any_upscale(Table& table, TextureUse& texture);
 /// Complains of a texture of <UDIM> tiles, where there are no texture coordinates that tell them apart.
 void refuse_tiles(Table& table, const char* key, const TextureUse& texture);
-/// A texture of tiles becomes one image of all of them, so its coordinates shrink by as much as that is larger. A scene
-/// that was made in code holds such coordinates already.
+/// Tiles are loaded as one image of so many columns and rows of unit squares, so the mapping's scale and offset are
+/// divided by these here. Scenes made in code give coordinates of the whole image themselves.
 void span_tiles(Table& table, const TextureUse& texture, UvMapping& mapping);
 /// texture, content, y, upscale: for kinds whose texture holds either content
 void read_any_texture(Table& table, TextureUse& texture);

@@ -148,7 +148,9 @@ public:
     void require(std::string_view key);
     /// Makes `key` a known key that is not read.
     void know(std::string_view key) { learn(key); }
-    /// What a number of `key` has compiled in: whether a mapping turns, how many octaves there are.
+    /// Notes what kernels have compiled in of `key`: whether a mapping turns, how many octaves there are. A pass
+    /// refuses scenes with another answer than the one that it was compiled for. For keys whose reading notes too
+    /// little by itself: that of a number notes nothing, while switches and choices note what they are.
     template <class T>
     void compiled_in(std::string_view key, const T& what) {
         if (visits()) note(key, to_text(what));

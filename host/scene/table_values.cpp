@@ -157,7 +157,7 @@ bool Table::text(std::string_view key, const toml::node& node, std::string& out,
     if (!node.is_string()) return wrong_type(key, fmt::format("{}a text in \"\"", element), node);
     const std::string& value = node.as_string()->get();
     if (value.empty()) return wrong_type(key, fmt::format("{}a text that is not empty", element), node);
-    // Texts end up in messages, file names and the comments of generated kernels.
+    // Texts end up in messages, file names and #line directives of kernels, none of which may hold a line break.
     if (has_control_character(value))
         return wrong_type(key, fmt::format("{}a text without control characters", element), node);
     out = value;

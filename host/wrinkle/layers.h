@@ -58,7 +58,9 @@ struct DerivativeMapLayer {
     static constexpr const char* kind = "derivative_map";
     TextureUse texture{.content = Content::slope};
     UvMapping uv{};
-    bool auto_scale = false;  ///< a height of 1 is as much as the pixel's texel is wide, instead of a metre
+    /// true: heights are in widths of the pixel's texel on the surface (of the texture, where slopes are per texture),
+    /// so that slopes do not depend on the tiling; false: in metres.
+    bool auto_scale = false;
 };
 
 /// Height map, scale dependent: scale is metres for a height of 1 [Mik20 3.5].

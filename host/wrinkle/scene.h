@@ -9,8 +9,9 @@
 #include "wrinkle/layers.h"
 #include "wrinkle/lighting.h"
 
-/// A scene: what to read, which bump layers to add, what to write. Value types; nothing here knows files or OpenCL.
-/// data/scenes/README.md is the reference of the TOML form; load_scene() reads it.
+/// A scene: what to read, which bump layers to add, what to write. Plain values that name files and hold numbers; of
+/// the functions here only load_scene() and check() open files, and none uses OpenCL. data/scenes/README.md is the
+/// reference of the TOML form, which load_scene() reads.
 ///
 ///     wrinkle::Scene scene;
 ///     scene.layers = {grain};
