@@ -195,7 +195,8 @@ void add_info(CLI::App& app) {
         ->required();
     command
         ->add_option("--camera", arguments->camera,
-                     "camera file (JSON with view and proj); else the scene's, FILE.camera.json or the header")
+                     "camera file (JSON with view and proj); else the scene's, FILE.camera.json, the header's, or one "
+                     "solved from the positions")
         ->type_name("FILE");
     command->add_option("--frame", arguments->frame, "which frame, where the name has #### or %04d");
     add_set_option(*command, arguments->set);

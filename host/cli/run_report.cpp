@@ -86,9 +86,9 @@ void print_table(const RenderReport& report) {
         fmt::print("{} frame{} there already, of the same files and options\n", report.skipped,
                    report.skipped == 1 ? "" : "s");
     if (report.frames == 0) return;
-    fmt::print("{} frame{}, {:.2f} Mpixel, {} active layer{} on {} ({} lanes)\n", report.frames,
+    fmt::print("{} frame{}, {:.2f} Mpixel, {} active layer{} on {} ({} lane{})\n", report.frames,
                report.frames == 1 ? "" : "s", megapixels, report.layers, report.layers == 1 ? "" : "s",
-               report.device.name, report.device.lanes);
+               report.device.name, report.device.lanes, report.device.lanes == 1 ? "" : "s");
     for (const std::string& camera : report.cameras) fmt::print("camera: {}\n", camera);
     if (!report.lights.empty())
         fmt::print("lights, fitted to the picture as the scene names none: {}\n", report.lights);
