@@ -1,4 +1,5 @@
 // A bump of the user's own whose gradient duals compute, against the same formula with its gradient written by hand.
+#include "tests/io/files.h"
 #include "tests/run/run_frame.h"
 
 namespace wrinkle::test {
@@ -30,6 +31,46 @@ TEST(UserKernel, DualsGiveTheGradientWrittenByHand) {
     }
     EXPECT_GT(bumped, 5) << "the dents show";
     EXPECT_LE(apart, 1e-3);
+}
+
+/// A layer whose function is `text`.
+Scene written(const TempFolder& folder, const std::string& function, const std::string& text) {
+    write_text(folder / "own.clh", text);
+    Scene scene;
+    scene.filter.taps = 1;
+    scene.layers.resize(1);
+    scene.layers[0].name = "own";
+    scene.layers[0].scale = 0.1;
+    scene.layers[0].bump = KernelLayer{.file = folder / "own.clh", .function = function, .parameters = {{"k", 2.0}}};
+    return scene;
+}
+
+TEST(UserKernel, MayBeCalledAsVariablesOfTheKernelAre) {
+    const TempFolder folder;
+    const HostFrame frame = small_frame();
+    const auto bumped = [&](const std::string& name) {
+        return evaluate_on(frame, written(folder, name,
+                                          "wr_fn wr_dual " + name + "(wr_bump_point at, " + name +
+                                              "_parameters k)\n{\n    wr_point q = wr_scale(wr_point_of(at.p), "
+                                              "(wr_real)(k.k));\n    return wr_sin(q.x);\n}\n"));
+    };
+    const Pixels plain = bumped("waves");
+    for (const char* name : {"p", "point", "numbers"}) EXPECT_EQ(bumped(name), plain) << name;
+}
+
+TEST(UserKernel, MistakesAreToldWithItsOwnLines) {
+    const TempFolder folder;
+    const HostFrame frame = small_frame();
+    const auto message = [&](const std::string& text) {
+        return error_of([&] { evaluate_on(frame, written(folder, "waves", text)); });
+    };
+    const std::string head = "// one\nwr_fn wr_dual waves(wr_bump_point at, waves_parameters k)\n";
+    expect_mentions(message(head + "{\n    return nothing;\n}\n"), {"own.clh:4", "nothing"});
+    expect_mentions(message("\nwr_fn wr_dual waves(wr_bump_point at)\n{\n    return wr_point_of(at.p).x;\n}\n"),
+                    {"own.clh:2"});
+    expect_mentions(message(head + "{ /* { */\n    return wr_point_of(at.p).x;\n"), {"own.clh:3", "no partner"});
+    expect_mentions(message(head + "{\n    return wr_point_of(at.p).x;  // }\n}\n}\n"), {"own.clh:6", "no partner"});
+    expect_mentions(message("// waves\n"), {"own.clh has no function \"waves\""});
 }
 
 }  // namespace
