@@ -13,6 +13,7 @@
 #include "io/beauty_file.h"
 #include "io/channel_names.h"
 #include "io/frame_path.h"
+#include "io/glance.h"
 #include "io/image_open.h"
 #include "io/image_parts.h"
 #include "io/packed_normals.h"
@@ -112,33 +113,13 @@ struct GBufferReader::Impl {
                             path.string(), place.name, place.lossy));
     }
 
-    std::uint32_t blocks_at_a_glance(std::uint32_t most) const;
-    std::vector<std::uint32_t> glance_rows() const;
+    std::vector<std::uint32_t> glance_rows() const { return io::glance_rows(image.parts, image.size.height); }
     void open(const GBufferSource& source);
     void take_beauty(const GBufferSource& source);
     bool sample_packed_normals(NormalKind kind) const;
     io::ObjectStorage sample_objects() const;
     void finish_normals(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
 };
-
-std::uint32_t GBufferReader::Impl::blocks_at_a_glance(std::uint32_t most) const {
-    constexpr double bytes = 64e6, fewest = 3;  // a tenth of a second
-    const double largest = std::ranges::max_element(image.parts, {}, &io::Part::block_bytes)->block_bytes;
-    const auto affordable = static_cast<std::uint32_t>(std::clamp(bytes / std::max(largest, 1.0), fewest, 1e9));
-    return std::min(affordable - (affordable + 1) % 2, most);  // an odd number has the middle row, whoever asks
-}
-
-std::vector<std::uint32_t> GBufferReader::Impl::glance_rows() const {
-    constexpr std::uint32_t most = 9;
-    const std::uint32_t height = image.size.height, count = blocks_at_a_glance(std::min(most, height));
-    std::vector<std::uint32_t> rows;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t from_middle = (i + 1) / 2, middle = count / 2;
-        const std::uint32_t band = i % 2 == 0 ? middle + from_middle : middle - from_middle;
-        rows.push_back(static_cast<std::uint32_t>((2 * std::uint64_t{band} + 1) * height / (2 * std::uint64_t{count})));
-    }
-    return rows;
-}
 
 io::ObjectStorage GBufferReader::Impl::sample_objects() const {
     const auto* object = place("object");
@@ -245,7 +226,9 @@ std::uint32_t GBufferReader::block_rows() const {
     const auto& parts = impl_->image.parts;
     return static_cast<std::uint32_t>(std::ranges::max_element(parts, {}, &io::Part::block_rows)->block_rows);
 }
-std::uint32_t GBufferReader::blocks_at_a_glance(std::uint32_t most) const { return impl_->blocks_at_a_glance(most); }
+std::uint32_t GBufferReader::blocks_at_a_glance(std::uint32_t most) const {
+    return io::blocks_at_a_glance(impl_->image.parts, most);
+}
 std::vector<std::uint32_t> GBufferReader::glance_rows() const { return impl_->glance_rows(); }
 io::ObjectStorage GBufferReader::object_storage() const {
     if (!impl_->objects) impl_->objects = impl_->sample_objects();
