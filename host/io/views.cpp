@@ -35,13 +35,15 @@ void add(std::vector<std::string>& names, const std::string& name) {
 
 std::string part_name(const OIIO::ImageSpec& spec) { return spec.get_string_attribute("oiio:subimagename"); }
 
-/// The attribute of a part, else what its name says: "left", "N.right".
+/// The attribute of a part, else what its name says: "left", "N.right", or "N.main", as Nuke calls its only view.
 std::string view_of_part(const OIIO::ImageSpec& spec, const std::vector<std::string>& known) {
     const std::string view = spec.get_string_attribute("view");
     if (!view.empty()) return view;
-    for (const auto& segment : segments(part_name(spec)))
+    const std::vector<std::string> all = segments(part_name(spec));
+    for (const auto& segment : all)
         if (is_eye(segment) || std::ranges::any_of(known, [&](const auto& name) { return same(name, segment); }))
             return segment;
+    if (all.size() > 1 && same(all.back(), "main")) return all.back();
     return "";
 }
 

@@ -75,6 +75,16 @@ TEST(Views, PartsNamedByTheirEyeNeedNoAttribute) {
     EXPECT_EQ(first(reader, "normal.x"), 10);
 }
 
+TEST(Views, NukesOnlyViewIsNoLayer) {
+    TempFolder folder;
+    write_image(folder / "a.exr", {part("rgba.main", "", {"red", "green", "blue"}, 1),
+                                   part("N.main", "", {"red", "green", "blue"}, 20), part("depth.main", "", {"Z"}, 5)});
+    const auto reader = open(folder / "a.exr");
+    EXPECT_EQ(first(reader, "normal.y"), 21);
+    EXPECT_EQ(first(reader, "depth"), 5);
+    EXPECT_EQ(first(reader, "beauty.b"), 3);
+}
+
 TEST(Views, ChannelsOfOnePartByTheAttributeMultiView) {
     TempFolder folder;
     auto spec = make_spec(4, 4, {"N.X", "N.Y", "N.Z", "N.wide.X", "N.wide.Y", "N.wide.Z", "Z", "wide.Z"});
