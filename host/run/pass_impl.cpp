@@ -131,7 +131,10 @@ void Pass::Impl::set_camera(const Camera& other) {
 
 void Pass::Impl::set_parameters(const Scene& other) {
     const LayerKinds kinds = layer_kinds();
-    scene::require_same_structure(scene::structure_of(kinds, scene), scene::check_scene(kinds, other));
+    Scene alike = other;
+    const bool filtered = std::ranges::find(plan.outputs, "normal.x") != plan.outputs.end();
+    if (!filtered) alike.filter = scene.filter;  // sums of decals have no pixels' areas
+    scene::require_same_structure(scene::structure_of(kinds, scene), scene::check_scene(kinds, alike));
     change([&] {
         scene = other;
         for (PlannedDecals& table : plan.tables) table.take_rows(table, {scene, cryptomatte});
