@@ -74,10 +74,10 @@ void bind_scenes(nb::module_& module) {
         [](const Scene& scene, std::filesystem::path directory, std::vector<int> frames, std::string device,
            std::optional<nb::callable> progress) {
             Progress told(std::move(progress));
-            const RenderOptions options{.directory = std::move(directory),
-                                        .frames = std::move(frames),
-                                        .device = std::move(device),
-                                        .progress = [&](double share) { told(share); }};
+            RenderOptions options;
+            options.directory = std::move(directory), options.frames = std::move(frames);
+            options.device = std::move(device);
+            options.progress = [&](double share) { told(share); };
             return told.around([&] { return render(scene, options); });
         },
         nb::arg("scene"), nb::arg("directory"), nb::arg("frames"), nb::arg("device"), nb::arg("progress").none());
