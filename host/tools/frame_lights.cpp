@@ -134,11 +134,12 @@ std::optional<SeenSurface> surface_at(const ReadRows& rows, std::size_t i, const
     return out;
 }
 
-/// How far numbers of a fit can be trusted, by what it leaves unexplained.
-const char* trust(double median) {
-    return median < 0.08  ? "they explain the picture well"
-           : median < 0.2 ? "they explain most of the picture"
-                          : "they explain the picture badly: name the lights yourself where you can";
+/// How far numbers of a fit can be trusted, by what it leaves unexplained. Large shares of a few pixels are what a lamp
+/// near the surfaces leaves.
+const char* trust(const LightFit& fit) {
+    return fit.median < 0.08 && fit.p90 < 0.3 ? "they explain the picture well"
+           : fit.median < 0.2 ? "they explain most of the picture; lamps near the surfaces are better named by hand"
+                              : "they explain the picture badly: name the lights yourself where you can";
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ std::string summary(const FrameLights& lights) {
     return fmt::format("a sky{} ({:.0f}% of the radiance unexplained, median; 90%: {:.0f}%{}); {}", suns,
                        100 * fit.median, 100 * fit.p90,
                        lights.albedo ? "" : "; the frame has no albedo, so colours of surfaces count as light's",
-                       trust(fit.median));
+                       trust(fit));
 }
 
 std::string lights_as_toml(const FrameLights& lights) {
@@ -197,7 +198,7 @@ std::string lights_as_toml(const FrameLights& lights) {
         "# Fitted by wrinkle to {} pixels: {}.\n"
         "# Unexplained: {:.1f}% of the radiance over the albedo (median), {:.0f}% (90%).{}\n"
         "# They are in the picture's units: set shadows = \"read\" in [lighting].\n",
-        fit.surfaces, trust(fit.median), 100 * fit.median, 100 * fit.p90,
+        fit.surfaces, trust(fit), 100 * fit.median, 100 * fit.p90,
         lights.albedo ? "" : " Without an albedo, colours of surfaces count as light's.");
     for (std::size_t i = 0; i < fit.lights.size(); ++i) {
         const Light& light = fit.lights[i];
