@@ -8,8 +8,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <mutex>
 #include <numeric>
+
+#include "io/workspaces.h"
 
 namespace wrinkle::io {
 namespace {
@@ -64,19 +65,6 @@ void store(const float* row, std::size_t width, bool half_floats, std::uint8_t* 
 }  // namespace
 
 struct ExrBlocks::Impl {
-    std::unique_ptr<Workspace> borrow() {
-        const std::lock_guard lock(mutex);
-        if (idle.empty()) return std::make_unique<Workspace>();
-        auto workspace = std::move(idle.back());
-        idle.pop_back();
-        return workspace;
-    }
-
-    void give_back(std::unique_ptr<Workspace> workspace) {
-        const std::lock_guard lock(mutex);
-        idle.push_back(std::move(workspace));
-    }
-
     /// The bytes of a row, channel after channel.
     void store_row(const PlaneRows& rows, std::uint32_t row, std::uint8_t* out) const {
         for (const std::size_t c : order) {
@@ -122,8 +110,7 @@ struct ExrBlocks::Impl {
     std::size_t row_bytes = 0;
     Bytes begun;  ///< rows of a block that is not full yet
     std::vector<std::uint64_t> offsets;
-    std::mutex mutex;
-    std::vector<std::unique_ptr<Workspace>> idle;
+    Workspaces<Workspace> workspaces;
     std::vector<Bytes> packed;
 };
 
@@ -139,8 +126,7 @@ ExrBlocks::ExrBlocks(DescriptorProxy& file, int top, Size size, std::vector<Bloc
                      .block_rows = rows_a_block(compression),
                      .begun = {},
                      .offsets = {},
-                     .mutex = {},
-                     .idle = {},
+                     .workspaces = {},
                      .packed = {}}) {
     Impl& impl = *impl_;
     impl.order.resize(impl.planes.size());
@@ -159,7 +145,7 @@ bool ExrBlocks::write(const PlaneRows& rows) {
     const std::uint32_t blocks = whole_end <= first ? 0 : (whole_end - first + impl.block_rows - 1) / impl.block_rows;
     impl.packed.resize(std::max<std::size_t>(impl.packed.size(), blocks));
     const auto pack_some = [&](std::int64_t from, std::int64_t to) {
-        auto work = impl.borrow();
+        auto work = impl.workspaces.borrow();
         for (auto block = from; block < to; ++block) {
             const std::uint32_t row = first + static_cast<std::uint32_t>(block) * impl.block_rows;
             const std::uint32_t row_end = std::min(row + impl.block_rows, whole_end);
@@ -169,7 +155,7 @@ bool ExrBlocks::write(const PlaneRows& rows) {
                 impl.store_row(rows, y - impl.next_row, work->plain.data() + impl.row_bytes * (y - row));
             impl.pack(work->plain, row, *work, impl.packed[static_cast<std::size_t>(block)]);
         }
-        impl.give_back(std::move(work));
+        impl.workspaces.give_back(std::move(work));
     };
     OIIO::parallel_for_chunked(0, blocks, 1, pack_some);
     for (std::uint32_t block = 0; block < blocks; ++block) impl.append(impl.packed[block]);

@@ -10,11 +10,11 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/workspaces.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
@@ -144,19 +144,6 @@ struct ZipBlocks::Impl {
         if (file != nullptr) exr_finish(&file);
     }
 
-    std::unique_ptr<Workspace> borrow() {
-        const std::lock_guard lock(mutex);
-        if (idle.empty()) return std::make_unique<Workspace>();
-        auto workspace = std::move(idle.back());
-        idle.pop_back();
-        return workspace;
-    }
-
-    void give_back(std::unique_ptr<Workspace> workspace) {
-        const std::lock_guard lock(mutex);
-        idle.push_back(std::move(workspace));
-    }
-
     /// `out` has a pointer for each stored channel: to its first pixel of these rows, or null when it is not wanted.
     bool read_block(int index, int y, std::span<float* const> out, std::size_t stride, Workspace& work) const {
         const StoredPart& part = *parts[static_cast<std::size_t>(index)];
@@ -199,8 +186,7 @@ struct ZipBlocks::Impl {
     std::shared_ptr<const InputFile> bytes;
     exr_context_t file = nullptr;
     std::vector<std::optional<StoredPart>> parts;
-    std::mutex mutex;
-    std::vector<std::unique_ptr<Workspace>> idle;
+    Workspaces<Workspace> workspaces;
 };
 
 ZipBlocks::ZipBlocks(std::shared_ptr<const InputFile> file, std::span<const Part> parts)
@@ -246,7 +232,7 @@ bool ZipBlocks::read(int part, std::span<const BlockChannel> channels, int y_beg
     const int blocks = (y_end - y_begin + stored.block_rows - 1) / stored.block_rows;
     std::atomic<int> good = 0;
     const auto read_some = [&](std::int64_t first, std::int64_t last) {
-        auto workspace = impl_->borrow();
+        auto workspace = impl_->workspaces.borrow();
         for (auto block = first; block < last; ++block) {
             const int row = static_cast<int>(block) * stored.block_rows;
             std::vector<float*> rows = out;
@@ -254,7 +240,7 @@ bool ZipBlocks::read(int part, std::span<const BlockChannel> channels, int y_beg
                 if (pixels != nullptr) pixels += static_cast<std::size_t>(row) * stored.width * stride;
             if (impl_->read_block(part, y_begin + row, rows, stride, *workspace)) ++good;
         }
-        impl_->give_back(std::move(workspace));
+        impl_->workspaces.give_back(std::move(workspace));
     };
     OIIO::parallel_for_chunked(0, blocks, 1, read_some);
     return good == blocks;
