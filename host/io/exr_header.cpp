@@ -110,25 +110,25 @@ private:
         return Box{1.0 + b[2] - b[0], 1.0 + b[3] - b[1]};
     }
 
-    /// Bytes of a pixel. Ends where the list does.
-    double channels(std::int64_t end) {
+    /// Bytes of a pixel. Stands behind the empty name that closes the list then; nothing: there is none before `end`,
+    /// where OpenEXR would read on.
+    std::optional<double> channels(std::int64_t end) {
         double bytes = 0;
         while (bytes_.tell() < end) {
             const auto name = text();
+            if (!name) break;
+            if (name->empty()) return bytes;
             std::array<std::int32_t, 4> fields{};  // type, linear and reserved, sampling along x and y
-            if (!name || name->empty() || !get(fields)) break;
+            if (!get(fields)) break;
             bytes += fields[0] == 1 ? 2 : 4;
         }
-        return bytes;
+        return {};
     }
 
     /// Whether the value that begins here ends where the file says.
     bool fits(std::string_view type, std::int64_t end) {
         const std::int64_t size = end - bytes_.tell();
-        if (type == "chlist") {
-            channels(end);
-            return bytes_.tell() == end;
-        }
+        if (type == "chlist") return channels(end).has_value() && bytes_.tell() == end;
         if (type == "stringvector") {
             std::uint32_t length = 0;
             while (bytes_.tell() < end && get(length)) bytes_.seek(bytes_.tell() + std::int64_t{length});
@@ -169,7 +169,7 @@ private:
                                 file_->name(), quote(*name)));
             if (*name == "dataWindow") part.data = box().value_or(Box{});
             if (*name == "displayWindow") part.display = box().value_or(Box{});
-            if (*name == "channels") part.pixel_bytes = channels(end);
+            if (*name == "channels") part.pixel_bytes = channels(end).value_or(0);
             if (*name == "compression") part.compression = compression();
             if (std::array<std::uint32_t, 2> sides{}; *name == "tiles" && get(sides))
                 part.tile = {1.0 * sides[0], 1.0 * sides[1]};

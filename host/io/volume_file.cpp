@@ -32,10 +32,9 @@ constexpr std::uint64_t kVdbMagic = 0x56444220, kNvdbMagic = 0x304244566f6e614eu
 constexpr double kMostBlocks = 1 << 28;                                              // their index then takes 1 GiB
 constexpr double kMostAlongAnAxis = (1 << 24) / 8;  // kernels count voxels from the first in float
 constexpr int kFarthest = (1 << 27) - 1;            // block from the origin: voxels stay within int, with ring
-/// Bytes of index that a byte of the file may ask for, at most. A leaf takes kilobytes of the file and one entry of the
-/// index; a tile takes nearly nothing and may span 2^27 entries, so without a limit a small file could ask for any
-/// amount of memory. Sound grids that are mostly tiles span little.
-constexpr double kIndexExpansion = 1000;
+/// Bytes of index that any file may ask for, and that a byte of a larger one may, at most. A leaf takes kilobytes of
+/// the file and one entry of the index, but two that lie far from each other, or one tile, span any number of entries.
+constexpr double kSmallIndex = 256 << 20, kIndexExpansion = 20;
 
 std::string list(const std::vector<ListedGrid>& grids) {
     std::string text;
@@ -162,8 +161,13 @@ BlockBox box_of(const InputFile& file, const RawVolume& raw, const Fail& fail) {
             throw fail(
                 fmt::format("reaches from voxel {} to {} along axis {}; indices go up to {}: move it to the origin",
                             8.0 * box.low[k], 8.0 * box.high[k] + 7, k, 8LL * kFarthest));
-    check_claim(file.name(), {fmt::format("a grid that {}", size()), with_ring * sizeof(std::int32_t), file.size(),
-                              kIndexExpansion});
+    const double index = with_ring * sizeof(std::int32_t);
+    if (index > std::max(kSmallIndex, kIndexExpansion * static_cast<double>(file.size())))
+        throw fail(
+            fmt::format("{}, of which only an index takes {} in memory, for a file of {}: crop or resample it, unless "
+                        "it is damaged",
+                        size(), bytes_text(index), bytes_text(static_cast<double>(file.size()))));
+    check_memory(file.name(), index, "the index of a grid that " + size());
     return box;
 }
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <ranges>
 #include <unordered_map>
 
 #include "base/imath.h"
@@ -181,8 +180,9 @@ std::vector<Projector> scatter_decals(const ScatterOptions& options, const Frame
         row.mode = options.mode;
         row.opacity = options.opacity;
     }
-    const auto shows_surface = [&](std::size_t i) { return pixels.at(i).has_value(); };
-    if (rows.empty() && std::ranges::none_of(std::views::iota(std::size_t{0}, count), shows_surface))
+    bool shows_surface = !rows.empty();
+    for (std::size_t i = 0; i < count && !shows_surface; ++i) shows_surface = pixels.at(i).has_value();
+    if (!shows_surface)
         throw Error("no pixel of the frame shows a surface, with a normal and a depth or position, to place decals on");
     return rows;
 }

@@ -80,7 +80,8 @@ TEST(ExrHeader, SizesAreThoseOfTheTypes) {
              {"m44f", std::string(16, '\0')},
              {"preview", as_bytes(std::array<std::uint32_t, 2>{1U << 15, 1U << 15})},
              {"stringvector", short_string + long_string},
-             {"chlist", std::string(3, '\0')}}) {
+             {"chlist", std::string(3, '\0')},
+             {"chlist", "A" + std::string(17, '\0')}}) {  // a channel, and no empty name behind it
         ExrHeader header;
         header.after = exr_attribute("odd", type, value);
         expect_mentions(outcome_of(folder, exr_file(header)),

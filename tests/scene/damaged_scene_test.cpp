@@ -33,5 +33,18 @@ TEST_F(DamagedScene, DamagedAnywhereItParsesOrThrowsError) {
     }
 }
 
+TEST_F(DamagedScene, LettersBeyondAsciiAreToldOfOutsideStrings) {
+    for (const char* letter : {"\u00e9", "\u03a5", "\u0416", "\u5c71", "\U0001f3a8"})
+        for (const char* around : {"{} = 1", "scale = [2, {}]", "scale = 1{}", "[{}]", "a = \"b\" {}"}) {
+            const std::string text = "# 1\n" + fmt::format(fmt::runtime(around), letter) + "\n";
+            try {
+                load_scene(write("courtyard.toml", text));
+                ADD_FAILURE() << "read: " << text;
+            } catch (const Error& error) {
+                EXPECT_NE(std::string(error.what()).find("courtyard.toml:2"), std::string::npos) << error.what();
+            }
+        }
+}
+
 }  // namespace
 }  // namespace wrinkle
