@@ -9,14 +9,15 @@
 namespace wrinkle {
 
 /// Buffers for named planes in memory that host and device both reach: mapping them costs nothing on a CPU device and
-/// is the fast way to copy on a GPU. The queue may be out of order: who enqueues commands that use the planes has them
-/// wait for ready(), and who maps has waited for those commands.
+/// is the fast way to copy on a GPU. They are mapped on a queue of their own, so that a long kernel on the device's
+/// holds up nobody who reads or writes: who enqueues commands that use the planes has them wait for ready(), and who
+/// maps has waited for those commands.
 class PlaneBuffers {
 public:
     PlaneBuffers() = default;
     PlaneBuffers(const Device& device, const std::vector<std::string>& names, std::size_t pixels,
                  std::size_t bytes_each)
-        : queue_(device.queue), bytes_(padded(pixels) * bytes_each) {
+        : queue_(device.context, device.device), bytes_(padded(pixels) * bytes_each) {
         for (const std::string& name : names)
             planes_.emplace(name, cl::Buffer(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes_));
     }
@@ -48,6 +49,7 @@ public:
         ready_.clear();
         for (const auto& [name, memory] : mapped_)
             queue_.enqueueUnmapMemObject(planes_.at(name), memory, nullptr, &ready_.emplace_back());
+        queue_.flush();  // commands of another queue wait for these
         mapped_.clear();
     }
 

@@ -7,13 +7,9 @@
 #include <optional>
 
 #include "device/guarded.h"
-#include "io/provenance.h"
 #include "layers/kinds.h"
 #include "run/frame_run.h"
-#include "run/open_frame.h"
-#include "run/output_names.h"
-#include "tools/frame_lights.h"
-#include "tools/frame_warnings.h"
+#include "tools/frames_ahead.h"
 #include "tools/scene_passes.h"
 #include "wrinkle/error.h"
 
@@ -67,30 +63,12 @@ public:
     }
 
 private:
-    std::optional<int> given(int frame) const { return options_.frames.empty() ? std::nullopt : std::optional(frame); }
-
-    bool is_finished(int frame, const std::string& provenance) const {
-        const auto files = OutputNames(scene_, options_.directory, given(frame)).all();
-        return std::ranges::all_of(files, [&](const auto& file) { return io::is_finished(file, provenance); });
-    }
-
     void open_device() {
         if (on_) return;
         Device device = clock_.measure(PhaseClock::build, [&] { return Device::open(options_.device); });
         if (options_.lanes != 0) device.info.lanes = options_.lanes;
         on_.emplace(std::move(device));
         report_.device = on_->device.info;
-    }
-
-    /// The scene with lights fitted to its picture, where it wants some: those of the first frame for all of them, as
-    /// lights that are fitted anew would flicker.
-    Scene lit(const Scene& scene) {
-        if (!wants_lights(scene)) return scene;
-        if (!lights_) {
-            lights_ = clock_.measure(PhaseClock::read, [&] { return lights_of_frame(scene, frames_.front()); });
-            report_.lights = summary(*lights_);
-        }
-        return with_lights(scene, *lights_);
     }
 
     /// What was made for another scene goes, but the textures that both have.
@@ -104,29 +82,24 @@ private:
     }
 
     FrameReport::State render_frame(FrameReport& report) {
-        const int number = report.frame;
-        const std::string provenance = options_.provenance ? options_.provenance(number) : std::string{};
-        if (options_.resume && is_finished(number, provenance)) {
+        const bool last = done_ + 1 == frames_.size();
+        FrameAhead ahead = ahead_.take(report.frame, last ? std::nullopt : std::optional(frames_[done_ + 1]));
+        if (!ahead.open) {
             ++report_.skipped;
             return FrameReport::State::skipped;
         }
         open_device();
-        if (options_.scene_of_frame) {
-            take(lit(clock_.measure(PhaseClock::read, [&] { return options_.scene_of_frame(number); })));
+        report_.lights = ahead.lights;
+        if (!passes_ || ahead.scene != latest_) {
+            latest_ = ahead.scene;
+            take(*ahead.scene);
             on_->store.keep_latest();
-        } else if (!passes_) {
-            take(lit(scene_));
         }
-        const Scene& scene = passes_->scene();
-        GBufferReader reader = clock_.measure(PhaseClock::read, [&] { return open_frame(scene, number); });
-        const FrameCamera camera =
-            clock_.measure(PhaseClock::read, [&] { return camera_of_frame(scene, reader, number); });
-        report_.cameras.push_back(camera.origin + "; " + describe_residual(camera));
-        warn(frame_warnings(scene, reader, camera));
-        const Frame frame = frame_of(scene, reader, camera);
-        check_outputs(scene, reader, options_.directory, given(number));
-        matches_->begin(frame, reader.object_storage());
-        evaluate(frame, reader, provenance, report);
+        report_.cameras.push_back(ahead.open->camera);
+        warn(ahead.open->warnings);
+        const Frame& frame = ahead.open->frame;
+        matches_->begin(frame, ahead.open->reader.object_storage());
+        evaluate(frame, ahead.open->reader, ahead.provenance, report);
         report_.pixels += std::uint64_t{frame.size.width} * frame.size.height;
         ++report_.frames;
         return FrameReport::State::written;
@@ -146,7 +119,8 @@ private:
                 budget != nullptr ? budget->budget.choice() : everything_in(options_.precision, scene.layers.size());
             Pass& pass = passes_->pass(frame, how);
             warn(on_->store.doubts());
-            FrameOutputs outputs(scene, pass.impl(), reader, options_.directory, given(report.frame), provenance);
+            FrameOutputs outputs(scene, pass.impl(), reader, options_.directory,
+                                 options_.frames.empty() ? std::nullopt : std::optional(report.frame), provenance);
             const double seconds = run(frame, reader, how, &outputs);
             done = budget == nullptr || budget->budget.accept(budget->sample.stats());
             if (done) {
@@ -203,10 +177,11 @@ private:
     RenderReport report_;
     PhaseClock clock_;
     std::optional<OpenDevice> on_;
-    std::optional<FrameLights> lights_;
+    std::shared_ptr<const Scene> latest_;
     std::optional<ScenePasses> passes_;
     std::optional<MaskMatches> matches_;
     std::size_t done_ = 0;
+    FramesAhead ahead_{scene_, options_, clock_};
 };
 
 }  // namespace
