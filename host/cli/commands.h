@@ -18,5 +18,6 @@ void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_area(CLI::App& app);
 void add_fit_lights(CLI::App& app);
+void add_job(CLI::App& app);
 
 }  // namespace wrinkle::cli

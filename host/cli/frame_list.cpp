@@ -36,7 +36,7 @@ std::vector<int> parse_frames(const std::string& text) {
     std::vector<int> frames;
     std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');) {
-        const std::size_t dash = part.find('-'), times = part.find('x');
+        const std::size_t dash = part.find('-'), times = part.find_first_of("x:");
         if (dash == std::string::npos) {
             frames.push_back(number(part, part));
             continue;

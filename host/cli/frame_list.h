@@ -10,8 +10,8 @@
 
 namespace wrinkle::cli {
 
-/// The frame numbers that a text names, in the order given: "1-10", "1-100x5" (every fifth), "3,7,9-12". Throws
-/// CLI::ValidationError when it is malformed or names a number twice.
+/// The frame numbers that a text names, in the order given: "1-10", "1-100x5" or "1-100:5" (every
+/// fifth), "3,7,9-12". Throws CLI::ValidationError when it is malformed or names a number twice.
 std::vector<int> parse_frames(const std::string& text);
 
 /// The files of the G-buffer whose names may hold a place for a frame number: the frame, and the camera's file if there

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
         "  wrinkle bench --report out/bench            how fast and how wrong\n"
         "  wrinkle area courtyard.toml                 what normals miss of each pixel's area, and what more points "
         "cost\n"
+        "  wrinkle job shot.toml --frames 1-1000 --for slurm    a sequence, described for a farm\n"
         "  wrinkle tune data/scenes/*.toml             what max_error in a scene chooses by, measured here\n",
         "wrinkle"};
     app.set_version_flag("--version", "wrinkle " WRINKLE_VERSION);
@@ -67,6 +68,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_tune(app);
     wrinkle::cli::add_area(app);
     wrinkle::cli::add_fit_lights(app);
+    wrinkle::cli::add_job(app);
     wrinkle::cli::add_limit_options(app);
     try {
         app.parse(reversed_arguments(argc, argv));
