@@ -101,6 +101,14 @@ constexpr Promise kPromises[] = {
      {"volume", "sparse, 1.4 voxels a pixel", "standard"},
      {"volume", "sparse, 1.4 voxels a pixel", "NanoVDB C++, gradient"},
      0.7},
+    {"a run / OpenEXR and libpng",
+     {"files", "pictures", "wrinkle run"},
+     {"files", "pictures", "OpenEXR and libpng"},
+     1.25},
+    {"27 passes passed on / oiiotool",
+     {"files", "all passes", "wrinkle run"},
+     {"files", "all passes", "oiiotool"},
+     1.3},
     {"wrinkle run / oiiotool", {"files", "resolve", "wrinkle run"}, {"files", "resolve", "oiiotool"}, 0.65},
 };
 

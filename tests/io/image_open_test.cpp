@@ -85,7 +85,7 @@ TEST(ImageOpen, KnowsFormatsByTheirBytes) {
     }
 }
 
-/// 74 bytes that claim 65535 x 65535 pixels.
+/// Few bytes that claim 65535 x 65535 pixels, or rows so long that reading some at a time takes as much.
 TEST(ImageOpen, ClaimsAreNoMemory) {
     const TempFolder folder;
     auto spec = make_spec(16, 16, {"Y"}, OIIO::TypeUInt8);
@@ -93,14 +93,18 @@ TEST(ImageOpen, ClaimsAreNoMemory) {
     std::ifstream in(folder / "a.png", std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(in), {}};
     constexpr std::size_t kWidthAt = 16, kHeaderAt = 12, kHeaderBytes = 17;
-    for (std::size_t i = 0; i < 8; ++i) bytes[kWidthAt + i] = static_cast<char>(i % 4 < 2 ? 0 : 0xff);
-    const auto sum =
-        static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + kHeaderAt, kHeaderBytes));
-    for (std::size_t i = 0; i < 4; ++i)
-        bytes[kHeaderAt + kHeaderBytes + i] = static_cast<char>(sum >> (24 - 8 * i) & 0xff);
-    write_text(folder / "huge.png", bytes);
-    expect_mentions(error_of([&] { load_texture(folder / "huge.png", ImageUse::scalar); }),
-                    {"huge.png: it claims a picture of 65535x65535 pixels", "17.2 GB", "in a file of"});
+    const auto put = [&](std::size_t at, std::uint32_t value) {
+        for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i) & 0xff);
+    };
+    for (const auto& [width, height, memory] : {std::tuple{65535U, 65535U, "17.2 GB"}, {900000U, 4U, "461 MB"}}) {
+        put(kWidthAt, width), put(kWidthAt + 4, height);
+        put(kHeaderAt + kHeaderBytes, static_cast<std::uint32_t>(crc32(
+                                          0, reinterpret_cast<const Bytef*>(bytes.data()) + kHeaderAt, kHeaderBytes)));
+        write_text(folder / "huge.png", bytes);
+        expect_mentions(
+            error_of([&] { load_texture(folder / "huge.png", ImageUse::scalar); }),
+            {fmt::format("huge.png: it claims a picture of {}x{} pixels", width, height), memory, "in a file of"});
+    }
 }
 
 }  // namespace
