@@ -7,12 +7,16 @@
 #include <memory>
 #include <optional>
 
+#include "base/atomic_file.h"
+#include "base/same_file.h"
+#include "base/text_file.h"
 #include "cli/commands.h"
 #include "cli/frame_list.h"
 #include "cli/options.h"
 #include "cli/run_report.h"
 #include "io/threads.h"
 #include "layers/kinds.h"
+#include "look/report.h"
 #include "tools/frame_lights.h"
 #include "tools/frame_provenance.h"
 #include "tools/render.h"
@@ -24,7 +28,7 @@ namespace {
 
 struct RunArguments {
     std::filesystem::path scene;
-    std::string directory = "out", frames, device;
+    std::string directory = "out", frames, device, report;
     std::vector<std::string> set;
     int threads = 0, repeat = 1, lanes = 0;
     bool quiet = false, json = false, resume = false, force = false, keep_going = false, strict = false;
@@ -106,6 +110,39 @@ void tell_failures(const RenderReport& report, bool strict) {
     if (strict && !report.warnings.empty()) throw Error(report.warnings.front() + " (--strict)");
 }
 
+/// The page of --report. Its file is opened before anything runs, so that what is wrong with its name is told at once.
+class ReportFile {
+public:
+    ReportFile(const std::filesystem::path& path, const scene::SceneFile& scene) : path_(path), file_(path) {
+        std::vector<std::filesystem::path> inputs = scene.files;
+        inputs.insert(inputs.end(), {scene.scene.file, scene.scene.gbuffer.file, scene.scene.gbuffer.beauty_file});
+        refuse_to_replace(path, inputs);
+    }
+
+    /// Shows the first frame that did not fail; of none there is no page.
+    void write(const RunArguments& arguments, RunScene& scenes, const RenderReport& report,
+               const RenderOptions& options) {
+        const std::vector<int> numbers = options.frames.empty() ? std::vector{0} : options.frames;
+        const auto shown = std::ranges::find_if(numbers, [&](int number) {
+            return std::ranges::find(report.failed, number, &FrameReport::frame) == report.failed.end();
+        });
+        if (shown == numbers.end()) return;
+        const scene::SceneFile& file = scenes.at(options.frames.empty() ? std::nullopt : std::optional(*shown));
+        write_report(file_, {.scene = file.scene,
+                             .run = report,
+                             .frame = *shown,
+                             .source = arguments.scene == "-" ? file.text : read_text(arguments.scene),
+                             .set = arguments.set,
+                             .provenance = options.provenance(*shown),
+                             .device = arguments.device});
+        if (!arguments.quiet && !arguments.json) fmt::print("wrote {}\n", path_.string());
+    }
+
+private:
+    std::filesystem::path path_;
+    AtomicFile file_;
+};
+
 void run(const RunArguments& arguments) {
     const std::vector<int> frames = arguments.frames.empty() ? std::vector<int>{} : parse_frames(arguments.frames);
     RunScene scenes(arguments);
@@ -134,6 +171,8 @@ void run(const RunArguments& arguments) {
         setenv("POCL_MAX_PTHREAD_COUNT", fmt::format("{}", arguments.threads).c_str(), 1);
         set_image_threads(arguments.threads);
     }
+    std::optional<ReportFile> page;
+    if (!arguments.report.empty()) page.emplace(arguments.report, file);
     options.progress = progress_bar(!arguments.quiet && !arguments.json);
     if (!frames.empty() && (arguments.json || (!arguments.quiet && !options.progress)))
         options.frame_done = FrameLines(frames.size(), arguments.json);
@@ -144,6 +183,7 @@ void run(const RunArguments& arguments) {
         for (const std::string& warning : report.warnings) fmt::print(stderr, "wrinkle: warning: {}\n", warning);
         print_table(report);
     }
+    if (page) page->write(arguments, scenes, report, options);
     tell_failures(report, arguments.strict);
 }
 
@@ -177,6 +217,11 @@ void add_run(CLI::App& app) {
     command->add_option("--seed", arguments->seed, "which pixels (1)")
         ->type_name("N")
         ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+    command
+        ->add_option("--report", arguments->report,
+                     "also write one HTML page to send to somebody: pictures before and after, each layer alone, "
+                     "times, errors; of --frames, the first")
+        ->type_name("PAGE.html");
     command->add_flag("--resume", arguments->resume,
                       "skip frames whose files are there, of the same scene, files, options and version");
     command->add_flag("--force", arguments->force, "evaluate them all the same, whatever --resume would skip");

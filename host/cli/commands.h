@@ -6,6 +6,7 @@ namespace wrinkle::cli {
 
 /// Each adds a subcommand to the program. CLI11 calls it back, and so runs the command, while it parses the arguments.
 void add_run(CLI::App& app);
+void add_watch(CLI::App& app);
 void add_info(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_eval(CLI::App& app);

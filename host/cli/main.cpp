@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
         "  wrinkle info frame.exr                      what is in a G-buffer, and what that is enough for\n"
         "  wrinkle run courtyard.toml -o out           evaluate a scene; writes out/normal.exr, out/lit.png ...\n"
         "  wrinkle run shot.toml --frames 1-120        a sequence (the scene's file names hold ####)\n"
+        "  wrinkle watch courtyard.toml                turn its knobs in a browser\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
         "  wrinkle scatter scene.toml -o decals.csv    place decals on a frame at random\n"
         "  wrinkle fit-lights scene.toml               estimate the lights of a frame from its picture\n"
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.failure_message(CLI::FailureMessage::help);
     wrinkle::cli::add_run(app);
+    wrinkle::cli::add_watch(app);
     wrinkle::cli::add_info(app);
     wrinkle::cli::add_explain(app);
     wrinkle::cli::add_scatter(app);

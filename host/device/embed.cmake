@@ -1,10 +1,11 @@
-# Writes OUT: a C++ file holding every kernel source of FILES by its path under ROOT.
-set(text "#include \"device/kernel_sources.h\"\n\nnamespace wrinkle {\n\n"
-         "std::vector<KernelSource> embedded_kernel_sources() {\n    return {\n")
+# Writes OUT: a C++ file whose function FUNCTION returns every text of FILES by its path under ROOT, as a list of the
+# TYPE that HEADER declares.
+set(text "#include \"${HEADER}\"\n\nnamespace wrinkle {\n\n"
+         "std::vector<${TYPE}> ${FUNCTION}() {\n    return {\n")
 foreach(file IN LISTS FILES)
   file(RELATIVE_PATH name ${ROOT} ${file})
   file(READ ${file} content)
-  # A string literal may hold 64 KiB; no kernel file comes near that.
+  # A string literal may hold 64 KiB; no file comes near that.
   string(APPEND text "        {\"${name}\", R\"~wrinkle~(${content})~wrinkle~\"},\n")
 endforeach()
 string(APPEND text "    };\n}\n\n}  // namespace wrinkle\n")

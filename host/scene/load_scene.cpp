@@ -6,7 +6,7 @@
 #include "base/names.h"
 #include "base/text_file.h"
 #include "scene/readers.h"
-#include "scene/scene_file.h"
+#include "scene/scene_text.h"
 #include "scene/set_values.h"
 #include "wrinkle/error.h"
 #include "wrinkle/scene.h"
@@ -71,9 +71,15 @@ void require_gbuffer(Table& root) {
     if (!root.has("gbuffer")) root.document().problems.add(0, "needs [gbuffer], at least file = \"frame.exr\"");
 }
 
-toml::table parse_scene_file(const std::filesystem::path& file) {
-    const std::string text = file == "-" ? read_standard_input() : read_text(file, "a scene file"),
-                      name = file == "-" ? "standard input" : file.string();
+namespace {
+
+std::string name_of(const std::filesystem::path& file) { return file == "-" ? "standard input" : file.string(); }
+
+std::string text_of(const std::filesystem::path& file) {
+    return file == "-" ? read_standard_input() : read_text(file, "a scene file");
+}
+
+toml::table parse_scene_text(const std::string& text, const std::string& name) {
     if (text.find('\0') != std::string::npos)
         throw Error(
             fmt::format("{}: is no text, so no scene (TOML); if it is an image, \"wrinkle info\" tells what it "
@@ -82,6 +88,12 @@ toml::table parse_scene_file(const std::filesystem::path& file) {
     toml::table values = parse_toml(text, name);
     if (!values.empty()) return values;
     throw Error(fmt::format("{}: the scene is empty; it needs [gbuffer]", name));
+}
+
+}  // namespace
+
+toml::table parse_scene_file(const std::filesystem::path& file) {
+    return parse_scene_text(text_of(file), name_of(file));
 }
 
 void read_scene(Table& root, LayerKinds kinds, Scene& out) {
@@ -95,9 +107,14 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out) {
 }
 
 SceneFile load_scene_file(LayerKinds kinds, const std::filesystem::path& file, const SceneOptions& options) {
-    toml::table values = parse_scene_file(file);
+    return load_scene_text(kinds, text_of(file), file, options);
+}
+
+SceneFile load_scene_text(LayerKinds kinds, const std::string& file_text, const std::filesystem::path& file,
+                          const SceneOptions& options) {
+    toml::table values = parse_scene_text(file_text, name_of(file));
     for (const std::string& setting : options.set) set_value(values, setting);
-    Document document{file.parent_path(), true, Problems(file == "-" ? "standard input" : file.string())};
+    Document document{file.parent_path(), true, Problems(name_of(file))};
     document.frame = options.frame;
     Table root(document, values, "the scene", 1);
     SceneFile out;
