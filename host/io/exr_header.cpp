@@ -190,6 +190,10 @@ private:
         };
         claim(fmt::format("rows of {:.0f} pixels", part.data.width),
               part.data.width * std::min<double>(how.rows, part.data.height) * part.pixel_bytes, how.expansion);
+        // OpenImageIO reads 64 rows at a time, as they are and as floats, however few there are: of a sound frame, too.
+        constexpr double kRowsAtATime = 64 * 2 * 2;
+        claim(fmt::format("rows of {:.0f} pixels", part.data.width), kRowsAtATime * part.data.width * part.pixel_bytes,
+              kRowsAtATime * how.expansion);
         claim(fmt::format("tiles of {:.0f}x{:.0f} pixels", part.tile.width, part.tile.height),
               part.tile.width * part.tile.height * part.pixel_bytes, how.expansion);
         // Of the rows that the data window leaves out there is nothing in the file, but each costs time.

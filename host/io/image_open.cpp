@@ -1,6 +1,7 @@
 #include "io/image_open.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -118,6 +119,9 @@ OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpe
                             name, reason(why)));
         throw Error(fmt::format("{}: not an image, or damaged{}", name, reason(why)));
     }
+    if (std::min({spec.width, spec.height, spec.full_width, spec.full_height, spec.nchannels}) < 1)
+        throw Error(fmt::format("{}: {} x {} pixels of {} channels: there is nothing in it", name, spec.width,
+                                spec.height, spec.nchannels));
     if (format != "openexr") check_size(spec, *file_);
 }
 

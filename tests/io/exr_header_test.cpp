@@ -97,10 +97,12 @@ TEST(ExrHeader, SizesAreThoseOfTheTypes) {
 TEST(ExrHeader, ClaimsAreNoMemory) {
     const TempFolder folder;
     constexpr int kFar = 100'000'000;
-    ExrHeader wide, tall, frame, tiles, longest;
+    ExrHeader wide, flat, tall, frame, tiles, longest;
     wide.data[2] = kFar;
     expect_mentions(outcome_of(folder, exr_file(wide)),
                     {"odd.exr: it claims rows of 100000001 pixels", "in a file of"});
+    flat.data[2] = 6'000'000, flat.data[3] = flat.data[1];
+    expect_mentions(outcome_of(folder, exr_file(flat)), {"odd.exr: it claims rows of 6000001 pixels", "in a file of"});
     tall.display = {0, 0, 131071, 131071};
     expect_mentions(outcome_of(folder, exr_file(tall)), {"odd.exr: it claims a frame of 131072x131072 pixels"});
     tiles.version |= 0x200;

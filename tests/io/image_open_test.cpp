@@ -85,6 +85,13 @@ TEST(ImageOpen, KnowsFormatsByTheirBytes) {
     }
 }
 
+TEST(ImageOpen, NoPixelsAreNoImage) {
+    const TempFolder folder;
+    write_text(folder / "empty.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 0 +X 2\nabcd");
+    expect_mentions(error_of([&] { load_texture(folder / "empty.hdr", ImageUse::scalar); }),
+                    {"empty.hdr: 2 x 0 pixels", "there is nothing in it"});
+}
+
 /// Few bytes that claim 65535 x 65535 pixels, or rows so long that reading some at a time takes as much.
 TEST(ImageOpen, ClaimsAreNoMemory) {
     const TempFolder folder;
