@@ -110,10 +110,18 @@ void tell_failures(const RenderReport& report, bool strict) {
     if (strict && !report.warnings.empty()) throw Error(report.warnings.front() + " (--strict)");
 }
 
+/// Makes the folder of a file as --output makes its own; where that fails, opening the file tells it better.
+const std::filesystem::path& with_its_folder(const std::filesystem::path& file) {
+    std::error_code failed;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
+    return file;
+}
+
 /// The page of --report. Its file is opened before anything runs, so that what is wrong with its name is told at once.
 class ReportFile {
 public:
-    ReportFile(const std::filesystem::path& path, const scene::SceneFile& scene) : path_(path), file_(path) {
+    ReportFile(const std::filesystem::path& path, const scene::SceneFile& scene)
+        : path_(path), file_(with_its_folder(path)) {
         std::vector<std::filesystem::path> inputs = scene.files;
         inputs.insert(inputs.end(), {scene.scene.file, scene.scene.gbuffer.file, scene.scene.gbuffer.beauty_file});
         refuse_to_replace(path, inputs);
