@@ -16,9 +16,14 @@ namespace {
 
 const std::vector<std::string> kNormal{"normal.x", "normal.y", "normal.z"};
 
+/// At a scale of 0, or of a nanometre where it is a depth, which has to be more.
 Scene without_layers(Scene scene, const std::set<std::size_t>& off) {
-    for (const std::size_t i : off)
-        if (i < scene.layers.size()) scene.layers[i].scale = 0;
+    constexpr double nanometre = 1e-9;
+    for (const std::size_t i : off) {
+        if (i >= scene.layers.size()) continue;
+        Layer& layer = scene.layers[i];
+        layer.scale = std::holds_alternative<ParallaxLayer>(layer.bump) ? nanometre : 0;
+    }
     return scene;
 }
 
@@ -178,11 +183,11 @@ LookPixel Look::pixel(std::uint32_t x, std::uint32_t y) {
             std::set<std::size_t> others = all;
             others.erase(i);
             const Vec3 bumped = normal_with(others);
-            // The new normal is normalize(n - g), and g is tangent to n.
-            const double along = dot(flat, bumped);
+            // The new normal is normalize(n - g), and g is tangent to n. Equal normals give exactly 0.
+            const double along = dot(flat, bumped), whole = dot(flat, flat);
             Vec3 g{};
             if (along > 0)
-                for (std::size_t k = 0; k < 3; ++k) g[k] = flat[k] - bumped[k] / along;
+                for (std::size_t k = 0; k < 3; ++k) g[k] = flat[k] - bumped[k] * (whole / along);
             pixel.gradients.emplace_back(scene_.layers[i].name, g);
         }
         return pixel;

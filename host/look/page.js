@@ -151,7 +151,7 @@ function showProblems() {
         return box;
     };
     $("problems").hidden = data.problems.length === 0;
-    $("problems").replaceChildren(make("h2", {textContent: live.layer ? "Not evaluated: the picture is the last good one" : "Problems"}),
+    $("problems").replaceChildren(make("h2", {textContent: data.size ? "Not evaluated: the picture is the last good one" : "Not evaluated"}),
                                   make("pre", {className: "lines"}, ...data.problems.map(excerpt)));
     $("warnings").hidden = data.warnings.length === 0;
     $("warnings").replaceChildren(make("h2", {textContent: "Warnings"}), ...data.warnings.map(text => make("div", {textContent: text})));

@@ -87,7 +87,7 @@ struct WatchServer::Impl {
 
     void add_gets() {
         server.Get("/", [this](const httplib::Request&, httplib::Response& response) {
-            const auto shown = board.shown(0, kLongestWait);
+            const auto shown = board.shown();
             response.set_content(page_of(json::parse(shown.state, nullptr, false), true), "text/html; charset=utf-8");
         });
         server.Get("/state", [this](const httplib::Request& request, httplib::Response& response) {

@@ -32,6 +32,11 @@ std::vector<fs::path> with_tiles(const std::vector<fs::path>& files) {
     return out;
 }
 
+std::string text_of(const fs::path& scene) {
+    if (scene == "-") throw Error("standard input cannot be watched; give the scene as a file");
+    return read_text(scene, "a scene file");
+}
+
 std::vector<fs::path> files_of_frame(const Scene& scene, int frame) {
     const fs::path picture = frame_path(scene.gbuffer.file, frame);
     std::vector<fs::path> out{picture};
@@ -44,7 +49,7 @@ std::vector<fs::path> files_of_frame(const Scene& scene, int frame) {
 }  // namespace
 
 WatchSession::WatchSession(const fs::path& scene, std::optional<int> frame, const std::string& device)
-    : path_(scene), frame_(frame), look_(Device::open(device)), text_(read_text(scene, "a scene file")) {
+    : path_(scene), frame_(frame), look_(Device::open(device)), text_(text_of(scene)) {
     stamps_.know({&path_, 1});
 }
 
@@ -178,7 +183,7 @@ std::string WatchSession::state() const {
                 {"tables", json::array()},
                 {"numbers", numbers},
                 {"unsaved", !numbers_.empty()},
-                {"status", "evaluating: the first time a kernel is built, which takes seconds"}};
+                {"status", error_.empty() ? "building the kernel, which takes seconds the first time" : ""}};
     if (!image_) return page_json(out);
     out["size"] = {image_->size.width, image_->size.height};
     out["status"] =

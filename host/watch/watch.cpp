@@ -14,7 +14,6 @@ namespace {
 constexpr std::chrono::milliseconds kLook{25};
 
 void evaluate_until_stopped(WatchSession& session, WatchBoard& board) {
-    board.show(session.shown());
     while (!board.is_stopped()) {
         for (auto task = board.next(kLook); task; task = board.next({})) (*task)(session);
         session.look_at_files();
@@ -60,6 +59,7 @@ void watch(const WatchOptions& options) {
     std::optional<EndSignals> signals(std::in_place);
     WatchSession session(options.scene, options.frame, options.device);
     WatchBoard board;
+    board.show(session.shown());  // that there is nothing yet
     WatchServer server(board, options.port);
     std::jthread evaluating([&] { evaluate_until_stopped(session, board); });
     std::jthread serving([&] { server.serve(); });
