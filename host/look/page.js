@@ -25,11 +25,11 @@ function load(image, url) {
 
 function showView() {
     const now = viewNow();
+    for (const hidden of [$("handle"), $("split-label"), $("before")]) hidden.style.display = now && now.before ? "" : "none";
     if (!now) return;
     view = now.id;
     const version = data.version;
     Promise.all([load($("after"), now.after), load($("before"), now.before)]).then(() => { document.body.dataset.shown = version; });
-    for (const hidden of [$("handle"), $("split-label"), $("before")]) hidden.style.display = now.before ? "" : "none";
     $("tag-before").textContent = now.before ? now.before_title || "before" : "";
     $("tag-after").textContent = now.before ? now.after_title || "after" : now.title;
     $("note").replaceChildren(...(now.id === "marked" ? data.marked.flatMap(m =>

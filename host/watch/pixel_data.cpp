@@ -78,10 +78,14 @@ nlohmann::json pixel_data(const LookImage& image, const LookPixel& pixel, std::u
     const auto before = image.unbumped ? At(*image.unbumped, i).vec("lit", "rgb") : frame.vec("beauty", "rgb");
     if (before && out.number("lit.r")) rows.emplace_back("picture before", text(*before));
     if (const auto lit = out.vec("lit", "rgb")) rows.emplace_back("picture", text(*lit));
-    for (const auto& [layer, gradient] : pixel.gradients)
-        rows.emplace_back("gradient of " + layer, length(gradient) == 0
-                                                      ? std::string("0")
-                                                      : fmt::format("{} ({:.3g})", text(gradient), length(gradient)));
+    std::size_t none = 0;
+    for (const auto& [layer, gradient] : pixel.gradients) {
+        if (length(gradient) > 0)
+            rows.emplace_back("gradient of " + layer, fmt::format("{} ({:.3g})", text(gradient), length(gradient)));
+        else
+            ++none;
+    }
+    if (none > 0) rows.emplace_back(fmt::format("gradient of {} {}", none, none == 1 ? "layer" : "layers"), "0");
     return rows;
 }
 
