@@ -16,6 +16,7 @@ const viewNow = () => data.views.find(v => v.id === view) || data.views[0];
 
 // A picture replaces the last one when it is there, so that nothing flickers; the latest wins.
 function load(image, url) {
+    if (url && shown[image.id] === url && image.src) return Promise.resolve();
     shown[image.id] = url;
     if (!url) return Promise.resolve(image.removeAttribute("src"));
     const next = new Image();

@@ -89,6 +89,7 @@ void WatchSession::load() {
         look_.open(file_.scene, frame_.value_or(0));
         frame_tables_ = std::move(tables);
         reopen_ = false;
+        ++frame_version_;
     }
 }
 
@@ -138,6 +139,7 @@ void WatchSession::write_numbers() {
         throw Error(
             fmt::format("{} was changed meanwhile; look at it again before numbers are written", path_.string()));
     std::string text = scene::with_numbers(text_, numbers_);
+    scene::load_scene_text(layer_kinds(), text, path_, {.frame = frame_});  // refuses what the scene may not hold
     AtomicFile file(path_);
     file.write(text);
     file.commit();

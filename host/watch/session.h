@@ -32,7 +32,8 @@ public:
     void set_numbers(const std::map<std::string, double>& numbers);
     void switch_off(std::set<std::string> layers);
     void want_condition(bool wanted);
-    /// Puts the numbers into the file. Throws Error where that cannot be written, or changed meanwhile.
+    /// Puts the numbers into the file. Throws Error where that cannot be written, changed meanwhile, or would be no
+    /// scene with them.
     void write_numbers();
     /// Numbers of a pixel, as JSON. Throws Error.
     std::string pixel(std::uint32_t x, std::uint32_t y);
@@ -60,7 +61,7 @@ private:
     std::vector<scene::SceneNumber> shown_numbers_;
     std::shared_ptr<const LookImage> image_;
     double seconds_ = 0;
-    std::uint64_t version_ = 0;
+    std::uint64_t version_ = 0, frame_version_ = 0;  ///< of what is shown; of the frame under it
 };
 
 }  // namespace wrinkle
