@@ -56,6 +56,8 @@ public:
 
     const GBufferReader& reader() const { return *reader_; }
     const FrameCamera& camera() const { return camera_; }
+    /// What looks wrong in textures that were read, a line each.
+    const std::vector<std::string>& doubts() const { return store_->doubts(); }
     const Device& device() const { return device_; }
 
 private:

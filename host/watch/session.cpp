@@ -12,6 +12,7 @@
 #include "layers/kinds.h"
 #include "look/look_data.h"
 #include "look/page.h"
+#include "tools/frame_warnings.h"
 #include "watch/pixel_data.h"
 #include "wrinkle/error.h"
 
@@ -109,6 +110,10 @@ bool WatchSession::evaluate() {
                 if (off_.contains(file_.scene.layers[i].name)) off.insert(i);
             image_ = look_.evaluate(file_.scene, off, condition_);
         });
+        if (image_->built) {
+            warnings_ = frame_warnings(file_.scene, look_.reader(), look_.camera());
+            warnings_.insert(warnings_.end(), look_.doubts().begin(), look_.doubts().end());
+        }
         error_.clear();
         seconds_ = seconds_since(start);
     } catch (const Error& error) {
@@ -180,7 +185,7 @@ std::string WatchSession::state() const {
                 {"off", off_},
                 {"marked", marked_legend()},
                 {"problems", problems_of(error_, path_.string())},
-                {"warnings", json::array()},
+                {"warnings", warnings_},
                 {"source", source},
                 {"tables", json::array()},
                 {"numbers", numbers},

@@ -58,6 +58,7 @@ private:
     std::chrono::steady_clock::time_point tried_;
 
     std::string error_;
+    std::vector<std::string> warnings_;  ///< of the last image that took a build
     std::vector<scene::SceneNumber> shown_numbers_;
     std::shared_ptr<const LookImage> image_;
     double seconds_ = 0;
