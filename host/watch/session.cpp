@@ -200,7 +200,10 @@ std::string WatchSession::state() const {
         *image_, [&](const std::string& picture) { return fmt::format("/picture/{}?v={}", picture, version_); });
     if (!image_->out.contains("condition"))
         out["views"].push_back(
-            {{"id", "condition"}, {"title", "condition"}, {"note", "is being evaluated"}, {"after", ""}});
+            {{"id", "condition"},
+             {"title", "condition"},
+             {"note", "is being evaluated; the kernel in double that it takes may be a minute in the building"},
+             {"after", ""}});
     return page_json(out);
 }
 
