@@ -161,7 +161,7 @@ void run(const RunArguments& arguments) {
     const auto files = frame_files(file);
     check_frame_pattern(files, "--frames", !frames.empty());
     if (!arguments.keep_going) check_frames_exist(files, frames);
-    check_output_name(scene.output.name, frames);
+    check_output_name("[output] name =", scene.output.name, frames);
     if (!file.frame_files.empty()) {
         if (arguments.scene == "-")
             throw Error(

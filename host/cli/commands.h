@@ -13,6 +13,7 @@ void add_eval(CLI::App& app);
 void add_figures(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_scatter(CLI::App& app);
+void add_decals(CLI::App& app);
 /// Adds two commands, bake-volume and bake-frame.
 void add_bake(CLI::App& app);
 void add_bench(CLI::App& app);

@@ -65,19 +65,18 @@ std::vector<std::filesystem::path> frame_files(const GBufferSource& gbuffer,
 }
 
 std::vector<std::filesystem::path> frame_files(const scene::SceneFile& file) {
-    auto files = frame_files(file.scene.gbuffer, file.scene.camera);
+    auto files = file.kept_files;
     files.insert(files.end(), file.frame_files.begin(), file.frame_files.end());
     return files;
 }
 
-void check_output_name(const std::string& name, const std::vector<int>& frames) {
+void check_output_name(const char* what, const std::string& name, const std::vector<int>& frames) {
     if (has_frame_place(name) && frames.empty())
-        throw Error(fmt::format("[output] name = {} holds a place for a frame number: give --frames", quote(name)));
+        throw Error(fmt::format("{} {} holds a place for a frame number: give --frames", what, quote(name)));
     if (!name.empty() && !has_frame_place(name) && frames.size() > 1)
         throw Error(fmt::format(
-            "[output] name = {} needs a place for the number, as {} frames would replace each other; name it such as "
-            "bump.####.exr",
-            quote(name), frames.size()));
+            "{} {} needs a place for the number, as {} frames would replace each other; name it such as bump.####.exr",
+            what, quote(name), frames.size()));
 }
 
 void check_frame_pattern(const std::vector<std::filesystem::path>& files, const char* option, bool given) {

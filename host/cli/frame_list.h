@@ -17,7 +17,7 @@ std::vector<int> parse_frames(const std::string& text);
 /// The files of the G-buffer whose names may hold a place for a frame number: the frame, and the camera's file if there
 /// is one.
 std::vector<std::filesystem::path> frame_files(const GBufferSource& gbuffer, const std::optional<CameraSource>& camera);
-/// The same of a scene, with its textures, tables and volumes that do.
+/// The same of a scene, with its layers' gradients, and with its textures, tables and volumes that do.
 std::vector<std::filesystem::path> frame_files(const scene::SceneFile& file);
 
 /// Throws Error when a file needs a frame number and `option` was not given, and when it was given and no file needs
@@ -25,7 +25,8 @@ std::vector<std::filesystem::path> frame_files(const scene::SceneFile& file);
 void check_frame_pattern(const std::vector<std::filesystem::path>& files, const char* option, bool given);
 
 /// Throws Error when the frames would be written over each other, or a name waits for a number that does not come.
-void check_output_name(const std::string& name, const std::vector<int>& frames);
+/// `what` says whose name it is.
+void check_output_name(const char* what, const std::string& name, const std::vector<int>& frames);
 
 /// Throws Error when files of some frames are missing, and names them.
 void check_frames_exist(const std::vector<std::filesystem::path>& files, const std::vector<int>& frames);

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
         "  wrinkle watch courtyard.toml                turn its knobs in a browser\n"
         "  wrinkle explain courtyard.toml              the plan, its expected cost, and the kernel it becomes\n"
         "  wrinkle scatter scene.toml -o decals.csv    place decals on a frame at random\n"
+        "  wrinkle decals scene.toml -o gradients.exr  sum up a scene's decals, for other scenes to read\n"
         "  wrinkle fit-lights scene.toml               estimate the lights of a frame from its picture\n"
         "  wrinkle eval resolve < in.csv > out.csv     one kernel function over rows of numbers (wrinkle eval --list)\n"
         "  wrinkle figures data/figures/*.toml         pictures side by side that show what a layer does\n"
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
     wrinkle::cli::add_info(app);
     wrinkle::cli::add_explain(app);
     wrinkle::cli::add_scatter(app);
+    wrinkle::cli::add_decals(app);
     wrinkle::cli::add_eval(app);
     wrinkle::cli::add_figures(app);
     wrinkle::cli::add_devices(app);

@@ -17,6 +17,8 @@
 #include "io/image_open.h"
 #include "io/image_parts.h"
 #include "io/packed_normals.h"
+#include "io/plane_errors.h"
+#include "io/vector_planes.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -54,11 +56,24 @@ struct GBufferReader::Impl {
     CryptomatteManifest cryptomatte;
     std::unique_ptr<io::BandReader> reader;
     std::unique_ptr<GBufferReader> beauty;  // another file, whose picture it is
+    std::map<std::string, io::VectorPlanes, std::less<>> vectors;
+    bool overscan = false;
 
     bool is_elsewhere(std::string_view plane) const { return beauty && plane.starts_with("beauty."); }
+    const io::VectorPlanes* vectors_of(std::string_view plane) const {
+        const auto found = vectors.find(plane.substr(0, plane.rfind('.')));
+        return found == vectors.end() ? nullptr : &found->second;
+    }
+    io::BandReader& reader_of(std::string_view plane) const {
+        if (is_elsewhere(plane)) return *beauty->impl_->reader;
+        const io::VectorPlanes* const added = vectors_of(plane);
+        return added && added->reader() ? *added->reader() : *reader;
+    }
 
     const io::ChannelPlace* place(std::string_view plane) const {
         if (is_elsewhere(plane)) return beauty->impl_->place(plane);
+        if (const io::VectorPlanes* const added = vectors_of(plane))
+            return &added->place(static_cast<std::size_t>(plane.back() - 'x'));
         if (plane == "beauty.a") return alpha_of_beauty();
         auto channel = plane;
         if (plane.starts_with(file_channel)) {
@@ -85,40 +100,13 @@ struct GBufferReader::Impl {
         return nullptr;
     }
 
-    [[noreturn]] void fail_missing(std::string_view plane) const {
-        const auto found = io::describe_channels(channels);
-        if (plane.starts_with(file_channel)) {
-            plane.remove_prefix(file_channel.size());
-            throw Error(fmt::format("{}: no channel \"{}\"; nearest: \"{}\"; channels found: {}", path.string(), plane,
-                                    nearest_name(plane, channels), found));
-        }
-        const auto role = plane.starts_with("crypto.") ? "cryptomatte" : plane.substr(0, plane.find('.'));
-        throw Error(
-            fmt::format("{}: no channels for the role \"{}\" (plane {}); channels found: {}; name its layer "
-                        "with [gbuffer] roles = {{ {} = \"...\" }}",
-                        path.string(), role, plane, found, role));
-    }
-
-    void check_precision(std::string_view plane, const io::ChannelPlace& place) const {
-        if (!plane.starts_with("crypto.id")) return;
-        if (place.half)
-            throw Error(
-                fmt::format("{}: cryptomatte channel \"{}\" is 16-bit: its ids are lost; render cryptomattes as "
-                            "32-bit float",
-                            path.string(), place.name));
-        if (!place.lossy.empty())
-            throw Error(
-                fmt::format("{}: cryptomatte channel \"{}\" is compressed by {}, which keeps some of its digits only: "
-                            "its ids are lost; write the file with ZIP, ZIPS, RLE or PIZ",
-                            path.string(), place.name, place.lossy));
-    }
-
     std::vector<std::uint32_t> glance_rows() const { return io::glance_rows(image.parts, image.size.height); }
     void open(const GBufferSource& source);
     void take_beauty(const GBufferSource& source);
     bool sample_packed_normals(NormalKind kind) const;
     io::ObjectStorage sample_objects() const;
     void finish_normals(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
+    void finish_vectors(std::span<const std::string> planes, std::span<float* const> out, std::size_t count) const;
 };
 
 io::ObjectStorage GBufferReader::Impl::sample_objects() const {
@@ -157,6 +145,7 @@ bool GBufferReader::Impl::sample_packed_normals(NormalKind kind) const {
 
 void GBufferReader::Impl::open(const GBufferSource& source) {
     io::OpenImage opened(path);
+    overscan = source.overscan;
     image = io::list_parts(opened.input(), path, {source.view, source.overscan});
     for (const auto& place : image.channels) {
         channels.push_back(place.name);
@@ -180,7 +169,7 @@ void GBufferReader::Impl::take_beauty(const GBufferSource& source) {
                                 beauty->size().width, beauty->size().height, path.string(), image.size.width,
                                 image.size.height));
     for (const char* plane : {"beauty.r", "beauty.g", "beauty.b"}) {
-        if (!beauty->has_plane(plane)) beauty->impl_->fail_missing(plane);
+        if (!beauty->has_plane(plane)) io::fail_missing_plane(plane, beauty->channels(), beauty->path());
         roles.channel_of[plane] = beauty->roles().channel_of.find(plane)->second;
     }
 }
@@ -213,6 +202,11 @@ const std::string& GBufferReader::view() const { return impl_->image.view; }
 bool GBufferReader::normals_are_in_world_space() const {
     return !impl_->roles.camera_space_normals || impl_->view.has_value();
 }
+void GBufferReader::add_vectors(const std::string& name, const io::VectorSource& source) {
+    only_errors(impl_->path.c_str(), [&] {
+        impl_->vectors.insert_or_assign(name, io::VectorPlanes(source, impl_->image, impl_->path, impl_->overscan));
+    });
+}
 void GBufferReader::turn_normals(const Mat4& view) { impl_->view = view; }
 double GBufferReader::pixel_aspect() const {
     const double aspect = metadata().number("PixelAspectRatio").value_or(1);
@@ -241,14 +235,16 @@ bool GBufferReader::has_plane(std::string_view plane) const { return impl_->plac
 std::vector<std::string> GBufferReader::planes() const {
     std::vector<std::string> result;
     for (const auto& [plane, channel] : impl_->roles.channel_of) result.push_back(plane);
+    for (const auto& [name, vectors] : impl_->vectors)
+        for (const char* const axis : {".x", ".y", ".z"}) result.push_back(name + axis);
     return result;
 }
 
 void GBufferReader::require(std::span<const std::string> planes) const {
     for (const auto& plane : planes) {
         const auto* place = impl_->place(plane);
-        if (place == nullptr) impl_->fail_missing(plane);
-        impl_->check_precision(plane, *place);
+        if (place == nullptr) io::fail_missing_plane(plane, impl_->channels, impl_->path);
+        io::require_whole_ids(plane, *place, impl_->path);
     }
 }
 
@@ -259,15 +255,14 @@ void GBufferReader::read_rows(std::uint32_t row_begin, std::uint32_t row_end, st
                                 path().string(), row_begin, row_end, planes.size(), out.size(), size().height));
     }
     require(planes);
-    std::vector<io::WantedChannel> wanted, elsewhere;
+    std::map<io::BandReader*, std::vector<io::WantedChannel>> wanted;
     for (std::size_t i = 0; i < planes.size(); ++i)
-        (impl_->is_elsewhere(planes[i]) ? elsewhere : wanted)
-            .push_back(
-                {*impl_->place(planes[i]), out[i], planes[i] == "object" || planes[i].starts_with(bits_of_channel)});
-    impl_->reader->read(row_begin, row_end, wanted);
-    if (!elsewhere.empty()) impl_->beauty->impl_->reader->read(row_begin, row_end, elsewhere);
+        wanted[&impl_->reader_of(planes[i])].push_back(
+            {*impl_->place(planes[i]), out[i], planes[i] == "object" || planes[i].starts_with(bits_of_channel)});
+    for (const auto& [reader, channels] : wanted) reader->read(row_begin, row_end, channels);
     const std::size_t count = std::size_t{row_end - row_begin} * size().width;
     impl_->finish_normals(planes, out, count);
+    impl_->finish_vectors(planes, out, count);
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const std::span<float> values(out[i], count);
         if (planes[i] == "object") io::label_objects(values, object_storage());
@@ -279,17 +274,23 @@ void GBufferReader::Impl::finish_normals(std::span<const std::string> planes, st
                                          std::size_t count) const {
     const bool turned = roles.camera_space_normals && view;
     if (!packed_normals && !turned) return;
-    std::span<float> axes[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto found = std::ranges::find(planes, normal_planes[axis]);
-        if (found != planes.end()) axes[axis] = {out[static_cast<std::size_t>(found - planes.begin())], count};
+    const auto axes = io::vector_memory("normal", planes, out, count, path);
+    if (!axes) return;
+    const auto& [x, y, z] = *axes;
+    if (packed_normals) io::unpack_normals(x, y, z);
+    if (turned) io::turn_normals(*view, x, y, z);
+}
+
+void GBufferReader::Impl::finish_vectors(std::span<const std::string> planes, std::span<float* const> out,
+                                         std::size_t count) const {
+    for (const auto& [name, added] : vectors) {
+        if (!added.camera_space()) continue;
+        const auto axes = io::vector_memory(name, planes, out, count, path);
+        if (!axes) continue;
+        if (!view) throw Error(fmt::format("{}: {} is in camera space, and nobody has turned it", path.string(), name));
+        const auto& [x, y, z] = *axes;
+        io::turn_normals(*view, x, y, z);
     }
-    const auto given = std::ranges::count_if(axes, [](const auto& axis) { return axis.data() != nullptr; });
-    if (given != 0 && given != 3) {
-        throw Error(fmt::format("{}: packed normals can only be read as x, y and z together", path.string()));
-    }
-    if (given == 3 && packed_normals) io::unpack_normals(axes[0], axes[1], axes[2]);
-    if (given == 3 && turned) io::turn_normals(*view, axes[0], axes[1], axes[2]);
 }
 
 }  // namespace wrinkle

@@ -13,6 +13,7 @@
 #include "io/gbuffer_roles.h"
 #include "io/metadata.h"
 #include "io/object_ids.h"
+#include "io/vector_source.h"
 #include "wrinkle/camera.h"
 #include "wrinkle/scene.h"
 
@@ -63,11 +64,15 @@ public:
     void turn_normals(const Mat4& view);
     bool normals_are_in_world_space() const;
 
+    /// Adds the planes NAME.x, NAME.y and NAME.z, vectors in world space; those of camera space need turn_normals().
+    /// Throws Error naming the file when it cannot be read, has another size, or has no such channels.
+    void add_vectors(const std::string& name, const io::VectorSource& source);
+
     /// "normal.x", "channel:NAME"; "beauty.a", the alpha beside the picture's colours; "bits:NAME" is a channel of
     /// integers, whose floats hold the integers' bits
     bool has_plane(std::string_view plane) const;
     bool has_role(std::string_view role) const { return roles().has_role(role); }
-    std::vector<std::string> planes() const;  ///< the planes of all roles that were found
+    std::vector<std::string> planes() const;  ///< of all roles that were found, and of vectors that were added
 
     /// Throws Error naming the role and the channels found when a plane has no channel.
     void require(std::span<const std::string> planes) const;

@@ -92,7 +92,8 @@ std::string emit(LayerText& at) {
     }
     const bool facing = at.emitter.options.view_footprint;
     const bool mixed = decal_of(at.layer).mode == DecalMode::projector;
-    if (mixed && facing) throw Error(at.who + ": mode = \"projector\" mixes normals, and this pass knows none");
+    if (mixed && (facing || at.emitter.options.volume_gradient))
+        throw Error(at.who + ": mode = \"projector\" mixes normals, and sums of gradients know none");
     at.section.reads.insert({"p", "dh_dp"});
     at.section.writes.insert(mixed ? "g" : "dh_dp");
     if (mixed) {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "plan/geometry_text.h"
+#include "plan/own_gradient.h"
 #include "plan/planned_numbers.h"
 
 namespace wrinkle {
@@ -120,13 +121,16 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     Section area;
     area.title = "layers over the pixel's area";
     area.reads = {"valid", "p", "n", "dp_dx", "dp_dy"};
-    std::string masks, prepared, bumps, wanted;
+    std::string own_sums, own_stores, masks, prepared, bumps, wanted;
     for (const Section& section : sections) {
         area.reads.insert(section.reads.begin(), section.reads.end());
         area.writes.insert(section.writes.begin(), section.writes.end());
         area.inputs.insert(section.inputs.begin(), section.inputs.end());
         area.operations += section.operations;
         area.parts.push_back({0, section.title, {section.inputs.begin(), section.inputs.end()}, section.operations});
+        area.outputs.insert(area.outputs.end(), section.outputs.begin(), section.outputs.end());
+        own_sums += own_sum_text(section);
+        own_stores += own_store_text(section);
         masks += section.masks;
         wanted += (wanted.empty() ? "" : " | ") + section.wanted;
         prepared += section.prepared;
@@ -156,7 +160,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     std::string& text = area.body;
     // Groups of pixels that no layer wants skip the section, unless it is the first to light: every pixel needs light.
     const bool all = use.lights && use.first;
-    text = masks +
+    text = own_sums + masks +
            fmt::format("        const wr_mask wanted = {};\n        if ({}) {{\n", wanted,
                        all || !emitter.options.skip ? "1" : "wr_any(wanted)") +
            (one ? "" : axis_text(emitter) + count_text(emitter)) + sums +
@@ -198,7 +202,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
         for (const LitTerm& term : lit_terms(emitter))
             text += use.first ? fmt::format("        {0} = {0}_sum;\n", term.value)
                               : fmt::format("        {0} = wr_select(wanted, {0}_sum, {0});\n", term.value);
-    text += "        }\n";
+    text += "        }\n" + own_stores;
     return area;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "plan/layer_text.h"
+#include "plan/own_gradient.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -36,6 +37,7 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     section.body = mask.rest + (text.active_at_any_point ? fmt::format("        active = wanted_{};\n", index) : "") +
                    (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
                    fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
+    if (writes_own_gradient(emitter, layer)) add_own_gradient(section, index);
     if (!section.area) {
         section.body = mask.planes + section.body;
         return section;

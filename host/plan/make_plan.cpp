@@ -34,7 +34,8 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
             ++i;
             continue;
         }
-        const std::size_t count = emitter.options.split ? 1 : layers_together(emitter.kinds, layers, i);
+        const std::size_t count =
+            emitter.options.split || emitter.scene.output.layers ? 1 : layers_together(emitter.kinds, layers, i);
         std::vector<const Layer*> together;
         for (std::size_t k = 0; k < count; ++k) together.push_back(&layers[i + k]);
         Stage& stage = stages.back();
@@ -248,7 +249,9 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     plan.tiles = std::move(tiles);
     // The write-combining buffers of a core can hold this many streams, so even half cache lines may bypass the cache.
     constexpr std::size_t kFewOutputs = 3;
-    plan.source = (sections.back().outputs.size() <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
+    std::size_t outputs = 0;
+    for (const Section& section : sections) outputs += section.outputs.size();
+    plan.source = (outputs <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
                   ("#include \"wrinkle.clh\"\n\n" +
                    (options.compiled_numbers ? numbers_text(plan, {scene, available.cryptomatte}) : std::string()) +
                    user_text(emitter) + emitter.helpers + bins);

@@ -10,6 +10,7 @@
 #include "base/same_file.h"
 #include "io/frame_path.h"
 #include "layers/kinds.h"
+#include "plan/own_gradient.h"
 #include "run/output_names.h"
 #include "scene/check_scene.h"
 #include "wrinkle/error.h"
@@ -21,8 +22,12 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Channel name of an output plane. Components as .X .Y .Z, .XX .XY .YY: other programs show those as layers.
-std::string channel_name(const std::string& plane, ChannelNames names) {
+std::string channel_name(const std::string& of_pass, const Scene& scene) {
     constexpr std::string_view normal = "normal.";
+    const ChannelNames names = scene.output.channel_names;
+    std::string plane = of_pass;
+    if (const auto layer = layer_of_output(plane))
+        plane = "gradient." + scene.layers.at(*layer).name + plane.substr(plane.rfind('.'));
     if (names == ChannelNames::passes) return plane.starts_with(normal) ? "N." + plane.substr(normal.size()) : plane;
     std::string name = plane;
     for (std::size_t i = plane.rfind('.'); i < plane.size(); ++i)
@@ -52,11 +57,17 @@ Metadata header_of(const Scene& scene, const GBufferReader& reader, bool passthr
 
 }  // namespace
 
+std::vector<fs::path> inputs_of(const Scene& scene, const GBufferReader& reader, int frame) {
+    std::vector<fs::path> inputs = scene::files_of(layer_kinds(), scene);
+    inputs.push_back(scene.gbuffer.beauty_file);
+    for (fs::path& file : inputs) file = frame_path(file, frame);
+    inputs.push_back(reader.path());
+    return inputs;
+}
+
 void check_outputs(const Scene& scene, const GBufferReader& reader, const fs::path& directory,
                    std::optional<int> frame) {
-    std::vector<fs::path> inputs = scene::files_of(layer_kinds(), scene);
-    inputs.push_back(reader.path());
-    if (!scene.gbuffer.beauty_file.empty()) inputs.push_back(frame_path(scene.gbuffer.beauty_file, frame.value_or(0)));
+    const std::vector<fs::path> inputs = inputs_of(scene, reader, frame.value_or(0));
     for (const fs::path& file : OutputNames(scene, directory, frame).all()) refuse_to_replace(file, inputs);
 }
 
@@ -88,7 +99,7 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     for (const std::string& plane : pass.plan.outputs) {
         if (plane.starts_with("lit.")) continue;
         planes.push_back("out:" + plane);
-        channels.push_back(channel_name(plane, output.channel_names));
+        channels.push_back(channel_name(plane, scene));
     }
     if (output.condition) {
         planes.push_back("out:condition");
@@ -129,6 +140,27 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     if (names.wants("lit")) add(names.png("lit"), lit, colors, PngEncoding::srgb);
     if (names.wants("before"))
         add(names.png("before"), {"beauty.r", "beauty.g", "beauty.b"}, colors, PngEncoding::srgb);
+}
+
+FrameOutputs FrameOutputs::single(const fs::path& file, const Scene& scene, const Pass::Impl& pass,
+                                  const GBufferReader& reader, const std::string& provenance) {
+    const Output& output = scene.output;
+    ImageOptions options;
+    options.half = output.half;
+    options.compression = output.compression;
+    options.window = reader.window();
+    options.metadata = header_of(scene, reader, false);
+    options.provenance = provenance;
+    options.metadata.set("wrinkle/space", "world");
+    std::vector<std::string> planes, channels;
+    for (const std::string& plane : pass.plan.outputs) {
+        planes.push_back("out:" + plane);
+        channels.push_back(channel_name(plane, scene));
+    }
+    FrameOutputs outputs;
+    outputs.files_.push_back(
+        {file, std::move(planes), ImageWriter(file, pass.size, std::move(channels), std::move(options))});
+    return outputs;
 }
 
 void FrameOutputs::write(std::uint32_t begin, std::uint32_t end, const std::map<std::string, const float*>& planes) {

@@ -16,6 +16,9 @@ namespace wrinkle {
 void check_outputs(const Scene& scene, const GBufferReader& reader, const std::filesystem::path& directory,
                    std::optional<int> frame);
 
+/// Files that a frame of the scene is read from; not all of the names need be those of files.
+std::vector<std::filesystem::path> inputs_of(const Scene& scene, const GBufferReader& reader, int frame);
+
 /// The files that one frame becomes: normal.exr (with what else the scene wants), normal.png, lit.exr, lit.png, and
 /// before.png where a picture is relit, by the names that run/output_names.h gives them. Nothing is seen under these
 /// names before finish().
@@ -23,6 +26,10 @@ class FrameOutputs {
 public:
     FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBufferReader& reader,
                  const std::filesystem::path& directory, std::optional<int> frame, const std::string& provenance = {});
+
+    /// One EXR file of all that the pass writes: of accumulated decals, gradients in world space.
+    static FrameOutputs single(const std::filesystem::path& file, const Scene& scene, const Pass::Impl& pass,
+                               const GBufferReader& reader, const std::string& provenance);
 
     /// Planes of the input that go into the output untouched.
     const std::vector<std::string>& passed_planes() const { return passed_; }
@@ -33,6 +40,8 @@ public:
     void finish(std::vector<std::filesystem::path>& files);
 
 private:
+    FrameOutputs() = default;
+
     struct File {
         std::filesystem::path path;
         std::vector<std::string> planes;

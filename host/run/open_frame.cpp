@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/frame_path.h"
 #include "layers/kinds.h"
 #include "plan/section.h"
 #include "wrinkle/error.h"
@@ -57,7 +58,20 @@ Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamer
     return frame;
 }
 
-GBufferReader open_frame(const Scene& scene, int frame) { return open_gbuffer(scene.gbuffer, frame); }
+GBufferReader open_frame(const Scene& scene, int frame) {
+    GBufferReader reader = open_gbuffer(scene.gbuffer, frame);
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const Layer& layer = scene.layers[i];
+        const LayerKind& kind = kind_of(layer_kinds(), layer);
+        auto source = kind.vectors ? kind.vectors(layer) : std::nullopt;
+        if (!source) continue;
+        source->file = frame_path(source->file, frame);
+        try {
+            reader.add_vectors(own_vectors(i), *source);
+        } catch (const Error& error) { throw Error(fmt::format("{}: {}", layer_label(layer), error.what())); }
+    }
+    return reader;
+}
 
 FrameCamera camera_of_frame(const Scene& scene, GBufferReader& reader, int frame, CameraCheck check) {
     FrameCamera camera = read_frame_camera(scene.camera, reader, frame);

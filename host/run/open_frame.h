@@ -6,7 +6,8 @@
 
 namespace wrinkle {
 
-/// Opens the scene's G-buffer; `number` fills in a frame pattern. Throws Error.
+/// Opens the scene's G-buffer, with the files that its layers read beside it; `number` fills in frame patterns. Throws
+/// Error.
 GBufferReader open_frame(const Scene& scene, int number);
 
 /// The camera of an open frame, by which the reader turns normals of camera space. `refuse` throws Error for a camera

@@ -134,19 +134,28 @@ Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, cons
 
 Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
                        const PassOptions& options) {
+    Scene scene;
+    scene.layers.assign(decals.begin(), decals.end());
+    Frame without_normals = frame;
+    for (const char* const plane : {"normal.x", "normal.y", "normal.z"}) without_normals.planes.erase(plane);
+    return accumulate_decals(device, scene, without_normals, options, nullptr);
+}
+
+Pass accumulate_decals(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
+                       TextureStore* store) {
     return guarded("accumulate decals", [&] {
-        Scene scene;
-        scene.layers.assign(decals.begin(), decals.end());
         for (const Layer& layer : scene.layers)
             if (!kind_of(layer_kinds(), layer).without_normal)
                 throw Error(fmt::format("layer \"{}\" is no decal", layer.name));
+        const bool normal = frame.planes.contains("normal.x");
         return make_pass("accumulate decals", device, scene, frame, options,
                          {.split = options.split,
-                          .normal = false,
+                          .normal = normal,
                           .write_normal = false,
                           .volume_gradient = true,
-                          .view_footprint = true,
-                          .precision = options.precision});
+                          .view_footprint = !normal,
+                          .precision = options.precision},
+                         store);
     });
 }
 

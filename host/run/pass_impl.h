@@ -69,6 +69,11 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
               TextureStore* store);
 
+/// The same of decals alone: the pass writes volume_gradient.x .y .z, the sum of their volume gradients. A frame with
+/// normals gives what evaluate() would add up; without normals it is what wrinkle::accumulate_decals() gives.
+Pass accumulate_decals(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
+                       TextureStore* store);
+
 /// Pass::run() that says after every band which share is done. What `progress` throws ends it; the rest of the outputs
 /// then holds what it held.
 using ToldShare = std::function<void(double)>;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/vector_source.h"
 #include "wrinkle/layers.h"
 #include "wrinkle/precision.h"
 #include "wrinkle/scene.h"
@@ -69,6 +71,8 @@ struct LayerKind {
     void (*look)(const Layer& layer, Available& available) = nullptr;
     /// Objects that its own rows name, each once.
     std::vector<NamedObject> (*objects)(const Layer& layer) = nullptr;
+    /// Where the vectors come from that it reads as planes of its own, own_vectors(); nothing: it reads none.
+    std::optional<io::VectorSource> (*vectors)(const Layer& layer) = nullptr;
     /// Whether `next` may share the loop of the layer before it.
     bool (*joins)(const Layer& layer, const Layer& next) = nullptr;
     /// Where it may move the point of a pixel to; `own_normal`: n is still the base normal.
@@ -77,6 +81,10 @@ struct LayerKind {
 
 /// The layer's scale, with the sign of its blend.
 inline double signed_scale(const Layer& layer) { return layer.blend == Blend::subtract ? -layer.scale : layer.scale; }
+
+/// Name of the planes .x, .y and .z that hold the vectors of the layer at a place of the scene. It does not hold the
+/// layer's name, so that renaming a layer compiles nothing.
+inline std::string own_vectors(std::size_t index) { return "gradient" + std::to_string(index); }
 
 /// Every kind of layer, in the order of the alternatives of Layer::bump; layers/kinds.h has them.
 using LayerKinds = std::span<const LayerKind* const>;

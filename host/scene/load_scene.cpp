@@ -131,6 +131,7 @@ SceneFile load_scene_text(LayerKinds kinds, const std::string& file_text, const 
     text << toml::toml_formatter(values);
     out.text = text.str();
     out.files = std::move(document.files);
+    out.kept_files = std::move(document.kept);
     out.frame_files = std::move(document.frame_files);
     return out;
 }

@@ -229,6 +229,7 @@ void read_output(Table& table, Output& out) {
     table.read("dp_dx", out.dp_dx);
     table.read("dp_dy", out.dp_dy);
     table.read("marked", out.marked);
+    table.read("layers", out.layers);
     table.read("condition", out.condition, Compiled::no);
     table.read("passthrough", out.passthrough, Compiled::no);
     table.read("half", out.half, Compiled::no);

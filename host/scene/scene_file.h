@@ -19,6 +19,7 @@ struct SceneFile {
     Scene scene;
     std::string text;                                  ///< as it was read: values replaced, comments gone
     std::vector<std::filesystem::path> files{};        ///< textures, tables, volumes and kernels
+    std::vector<std::filesystem::path> kept_files{};   ///< the frame, first, and what else is read with every frame
     std::vector<std::filesystem::path> frame_files{};  ///< names of those that hold a place for a frame's number
 };
 

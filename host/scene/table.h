@@ -36,7 +36,8 @@ struct Document {
     bool view_in_names = false;          ///< whether a name had it
     std::optional<int> frame{};          ///< fills places for a number in names, but those of the G-buffer
     std::vector<std::filesystem::path> frame_files{};  ///< those names
-    std::vector<std::filesystem::path> files{};        ///< that were read or will be, but the G-buffer's
+    std::vector<std::filesystem::path> files{};        ///< that were read or will be, but the frame's
+    std::vector<std::filesystem::path> kept{};         ///< the frame's: names that keep their place for a number
 };
 
 /// Allowed numbers. Kernels compute in float32, so nothing passes that float32 cannot hold.

@@ -255,7 +255,7 @@ bool Table::read_file(std::string_view key, std::filesystem::path& out, FramePat
             return false;
         }
     }
-    if (pattern == FramePattern::filled) document_->files.push_back(file);
+    (pattern == FramePattern::filled ? document_->files : document_->kept).push_back(file);
     out = file;
     return true;
 }

@@ -18,11 +18,8 @@ std::string frame_provenance(const scene::SceneFile& file, const RenderOptions& 
     hash.add(file.text);
     hash.add(fmt::format("{} {} {} {} {}", static_cast<int>(options.precision), options.lanes,
                          scene.budget.max_error.value_or(0), scene.budget.sample, scene.budget.seed));
-    const std::filesystem::path picture = frame_path(scene.gbuffer.file, frame);
-    hash.add_file(picture);
-    hash.add_file(frame_path(scene.gbuffer.beauty_file, frame));
-    hash.add_file(frame_path(scene.camera.file, frame));
-    if (const auto beside = camera_beside(picture)) hash.add_file(*beside);
+    for (const std::filesystem::path& of_frame : file.kept_files) hash.add_file(frame_path(of_frame, frame));
+    if (const auto beside = camera_beside(frame_path(scene.gbuffer.file, frame))) hash.add_file(*beside);
     for (const std::filesystem::path& of_layer : file.files) {
         hash.add_file(of_layer);
         for (const io::UdimTile& tile : io::udim_tiles(of_layer)) hash.add_file(tile.file);

@@ -51,7 +51,8 @@ struct Marked {
     static constexpr int back_facing = 2;  ///< the normal faced away and was reflected towards the viewer
     static constexpr int overflow = 8;     ///< a gradient too large for a float: the normal stays as it was
     static constexpr int no_uv_derivative =
-        4;  ///< no usable neighbour for a bare UV plane or a height, or no tangent: layers that need it are zero here
+        4;  ///< no usable neighbour for a bare UV plane or a height, no tangent, or a layer's gradient that is not
+            ///< finite: layers that need it are zero here
     static constexpr int picture_hole = 16;  ///< the picture to relight was not finite: it counts as black
 };
 

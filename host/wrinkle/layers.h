@@ -146,6 +146,18 @@ struct ConstantLayer {
     Vec3 gradient{};
 };
 
+/// Gradients that channels hold: dh/dp, of which the part tangent to the surface counts, so surface gradients are read
+/// alike. The channels are the frame's, or those of another file of its size, such as `wrinkle decals` writes. Those
+/// that are not the frame's, or not in world space, come to passes as the planes gradientN.x .y .z, in world space; N
+/// is the layer's place in the scene, from 0.
+struct GradientLayer {
+    static constexpr const char* kind = "gradient";
+    std::filesystem::path file{};         ///< may hold the patterns of a frame's name; empty: the frame itself
+    std::string layer{};                  ///< whose X, Y and Z they are; empty: volume_gradient
+    std::vector<std::string> channels{};  ///< three, instead of a layer
+    bool camera_space = false;            ///< x to the right, y up, z towards the viewer; else world space
+};
+
 /// A bump of the user's own: a function in OpenCL C, over the types of kernels/ (kernels/sources/dual.clh has
 /// arithmetic that differentiates). It is native code on a CPU: run nobody's but who you trust.
 struct KernelLayer {
@@ -204,7 +216,7 @@ struct Layer {
     std::string location;  ///< "scene.toml:12" for messages; empty for layers made in code
     std::variant<NormalMapLayer, HeightMapLayer, HeightChannelLayer, TriplanarLayer, NoiseLayer, DecalLayer,
                  DecalsLayer, ConstantLayer, ResolveLayer, ObjectNormalLayer, DerivativeMapLayer, ParallaxLayer,
-                 VolumeLayer, KernelLayer>
+                 VolumeLayer, KernelLayer, GradientLayer>
         bump;
     double scale = 1;  ///< metres per unit of height; a plain factor for normal maps and constants
     Blend blend = Blend::add;

@@ -105,8 +105,8 @@ private:
 
 /// The fused stack: every layer of the scene, its resolves, its lighting, what it wants written.
 ///   outputs: normal.x .y .z (world, unit) and, as scene.output and scene.lighting ask, surface_gradient.*, dp_dx.*,
-///   dp_dy.* (metres per pixel right, down), roughness, slope_covariance.xx .xy .yy (along dp_dx and across it), marked
-///   (see Marked), lit.r .g .b (linear)
+///   dp_dy.* (metres per pixel right, down), layerN.* (the surface gradient of the layer at place N of the scene, from
+///   0), roughness, slope_covariance.xx .xy .yy (along dp_dx and across it), marked (see Marked), lit.r .g .b (linear)
 /// Throws Error naming the layer when planes, textures or names are missing.
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options = {});
 

@@ -42,6 +42,7 @@ struct Output {
     bool roughness = false;         ///< the frame's or the scene's, as the bumps of a pixel's area widen it
     bool slope_covariance = false;  ///< of the bumps in a pixel's area, along the image's axes on the surface
     bool surface_gradient = false, dp_dx = false, dp_dy = false, marked = false;  ///< beside the normal
+    bool layers = false;       ///< the surface gradient of each layer by itself
     bool condition = false;    ///< how the normal magnifies input errors; by render(), not by a pass (run/condition.h)
     bool passthrough = false;  ///< copy the channels and metadata of the input
     bool half = false;         ///< 16-bit floats

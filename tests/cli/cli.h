@@ -79,7 +79,7 @@ private:
     /// Commands that need a device get the one of all tests, unless a test chooses.
     static std::string on_test_device(const std::string& arguments) {
         const std::string command = arguments.substr(0, arguments.find(' '));
-        const std::set<std::string> need_one{"run", "eval", "figures", "bake-volume", "bake-frame", "tune"};
+        const std::set<std::string> need_one{"run", "eval", "figures", "bake-volume", "bake-frame", "tune", "decals"};
         if (test_device_name().empty() || !need_one.contains(command) ||
             arguments.find("--device") != std::string::npos)
             return arguments;

@@ -41,7 +41,7 @@ TEST_P(EverySceneSource, Compiles) {
                 for (const Precision precision : {Precision::standard, Precision::exact}) {
                     Scene own = scene;
                     own.filter = {.taps = taps, .light_mean = mean};
-                    own.output.roughness = own.output.slope_covariance = roughness;
+                    own.output.roughness = own.output.slope_covariance = own.output.layers = roughness;
                     compile(own, {.precision = {precision, std::vector(own.layers.size(), precision)}},
                             fmt::format("{} points, roughness {}, light by the mean {}, {}", taps, roughness, mean,
                                         precision_name(precision)));

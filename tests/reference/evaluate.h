@@ -65,6 +65,10 @@ public:
         if (frame_.has("object")) s.object = frame_.plane("object")[i];
         s.coverage = [&](const std::string& name) { return frame_.coverage(i, name); };
         s.height_slope = [&](const std::string& name) { return frame_.height_slope(i, here, out.base, name); };
+        s.vector = [&](const std::array<std::string, 3>& names) -> std::optional<Vec<T>> {
+            const Vec<T> v{T(frame_.plane(names[0])[i]), T(frame_.plane(names[1])[i]), T(frame_.plane(names[2])[i])};
+            return finite(v) ? std::optional(v) : std::nullopt;
+        };
         if (uses_uv_) {
             if (const auto d = frame_.uv_derivative(i, here, out.base)) s.uv = TexCoord<T>{frame_.uv(i), *d};
             if (!s.uv) out.marked |= Marked::no_uv_derivative;

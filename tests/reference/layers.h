@@ -206,6 +206,18 @@ LayerFunction<T> make_layer(const ConstantLayer& layer, bool, SceneTextures<T>&)
     return [g = from_array<T>(layer.gradient)](const Surfel<T>&) -> Contribution<T> { return {{}, g}; };
 }
 
+/// Channels of the frame, in world space; those of other files are read before, and are no matter of an evaluation.
+template <class T>
+LayerFunction<T> make_layer(const GradientLayer& layer, bool, SceneTextures<T>&) {
+    std::array<std::string, 3> planes;
+    for (std::size_t k = 0; k < 3; ++k) planes[k] = "channel:" + layer.channels.at(k);
+    return [planes](const Surfel<T>& s) -> Contribution<T> {
+        const auto gradient = s.vector(planes);
+        if (!gradient) return {{}, {}, false, true};
+        return {{}, *gradient};
+    };
+}
+
 template <class T>
 LayerFunction<T> make_layer(const ObjectNormalLayer& layer, bool footprint, SceneTextures<T>& textures) {
     const auto channel = [&](int k) { return from_array<T>(layer.channels[k]); };
