@@ -59,7 +59,7 @@ void write_job(const JobArguments& arguments) {
     const FarmJob job = job_of(arguments);
     const scene::SceneFile file = load_scene_file(arguments.scene, {.set = arguments.set, .frame = job.frames.front()});
     check_frame_pattern(frame_files(file), "--frames", true);
-    check_output_name(file.scene.output.name, job.frames);
+    check_output_name("[output] name =", file.scene.output.name, job.frames);
     const Engine& engine = *std::ranges::find(engines(), arguments.engine, &Engine::name);
     if (wants_lights(file.scene))
         fmt::print(
