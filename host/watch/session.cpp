@@ -1,6 +1,7 @@
 #include "watch/session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -38,13 +39,23 @@ std::string text_of(const fs::path& scene) {
     return read_text(scene, "a scene file");
 }
 
-std::vector<fs::path> files_of_frame(const Scene& scene, int frame) {
-    const fs::path picture = frame_path(scene.gbuffer.file, frame);
-    std::vector<fs::path> out{picture};
-    for (const fs::path& file : {scene.gbuffer.beauty_file, scene.camera.file})
-        if (!file.empty()) out.push_back(frame_path(file, frame));
-    if (const auto beside = camera_beside(picture)) out.push_back(*beside);
+std::vector<fs::path> files_of_frame(const scene::SceneFile& scene, int frame) {
+    std::vector<fs::path> out;
+    for (const fs::path& file : scene.kept_files) out.push_back(frame_path(file, frame));
+    if (const auto beside = camera_beside(frame_path(scene.scene.gbuffer.file, frame))) out.push_back(*beside);
     return out;
+}
+
+/// What layers have opened with the frame, as text.
+std::string opened_by_layers(const Scene& scene) {
+    std::string text;
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const LayerKind& kind = kind_of(layer_kinds(), scene.layers[i]);
+        if (const auto source = kind.vectors ? kind.vectors(scene.layers[i]) : std::nullopt)
+            text += fmt::format("{} {} {} {} {}\n", i, source->file.string(), source->layer,
+                                fmt::join(source->channels, " "), source->camera_space);
+    }
+    return text;
 }
 
 }  // namespace
@@ -82,10 +93,10 @@ void WatchSession::load() {
     file_ = std::move(file);
     shown_numbers_ = scene::numbers_in(text);
     textures_ = with_tiles(file_.files);
-    frames_ = files_of_frame(file_.scene, frame_.value_or(0));
+    frames_ = files_of_frame(file_, frame_.value_or(0));
     stamps_.know(textures_);
     stamps_.know(frames_);
-    std::string tables = scene::frame_tables(text);
+    std::string tables = scene::frame_tables(text) + opened_by_layers(file_.scene);
     if (reopen_ || tables != frame_tables_) {
         look_.open(file_.scene, frame_.value_or(0));
         frame_tables_ = std::move(tables);
