@@ -31,15 +31,21 @@ bool is_cut_png(const InputFile& file) {
     return true;
 }
 
-/// What the file's first picture would take as floats, and what OpenImageIO takes to read it: 64 rows at a time, twice,
-/// however few there are. A file of another kind than EXR, which is judged before, is compressed at most as well as
-/// deflate does it, and its bytes may become floats.
+/// What the file's first picture would take as floats, within its window or the display's, and what OpenImageIO takes
+/// to read it: 64 rows at a time, twice, however few there are. A file of another kind than EXR, which is judged
+/// before, is compressed at most as well as deflate does it, and its bytes may become floats.
 void check_size(const OIIO::ImageSpec& spec, const InputFile& file) {
-    constexpr double kRowsAtATime = 64;
-    const double row = double{sizeof(float)} * spec.width * spec.nchannels;
-    for (const double bytes : {row * spec.height * spec.depth, 2 * kRowsAtATime * row})
-        check_claim(file.name(), {fmt::format("a picture of {}x{} pixels", spec.width, spec.height), bytes, file.size(),
+    constexpr double kRowsAtATime = 2 * 64, kSmallDisplay = 256 << 20;
+    const double pixel = double{sizeof(float)} * spec.nchannels;
+    const auto claim = [&](int width, int height, double bytes) {
+        check_claim(file.name(), {fmt::format("a picture of {}x{} pixels", width, height), bytes, file.size(),
                                   kDeflate * sizeof(float)});
+    };
+    claim(spec.width, spec.height, pixel * spec.width * spec.height * spec.depth);
+    claim(spec.width, spec.height, pixel * spec.width * kRowsAtATime);
+    // A small picture within a large display is sound, up to a point.
+    const double display = pixel * spec.full_width * spec.full_height;
+    if (display > kSmallDisplay) claim(spec.full_width, spec.full_height, display);
 }
 
 std::uint32_t word_of(const std::array<unsigned char, 148>& header, std::size_t at) {

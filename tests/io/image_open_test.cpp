@@ -92,6 +92,20 @@ TEST(ImageOpen, NoPixelsAreNoImage) {
                     {"empty.hdr: 2 x 0 pixels", "there is nothing in it"});
 }
 
+TEST(ImageOpen, DisplaysAreNoMemoryEither) {
+    const TempFolder folder;
+    auto spec = make_spec(16, 16, {"Y"}, OIIO::TypeUInt8);
+    for (const int side : {4096, 100'000}) {
+        spec.full_width = spec.full_height = side;
+        write_image(folder / "a.tif", {{spec, [](int, int, int) { return 0.5F; }}});
+        const std::string text = error_of([&] { load_texture(folder / "a.tif", ImageUse::scalar); });
+        if (side == 4096)
+            EXPECT_EQ(text, "");
+        else
+            expect_mentions(text, {"a.tif: it claims a picture of 100000x100000 pixels", "in a file of"});
+    }
+}
+
 /// Few bytes that claim 65535 x 65535 pixels, or rows so long that reading some at a time takes as much.
 TEST(ImageOpen, ClaimsAreNoMemory) {
     const TempFolder folder;
