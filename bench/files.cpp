@@ -128,6 +128,7 @@ void measure_files(Size size, Run& run) {
         m.error.not_finite += copied.x[i] == frame.planes.at("normal.x")[i] ? 0 : 1;
     run.measurements.push_back(m);
 
+    m.bytes = 0;  // of several files, not counted
     const auto add = [&](const char* name, const char* variant, const Contender& contender, const fs::path& normals) {
         m.name = name, m.variant = variant, m.seconds = contender.seconds;
         m.error = reference.compare(read_normals(folder.path() / normals, frame.pixels()));

@@ -14,6 +14,7 @@
 #include "cli/frame_list.h"
 #include "cli/options.h"
 #include "cli/run_report.h"
+#include "io/frame_path.h"
 #include "io/threads.h"
 #include "layers/kinds.h"
 #include "look/report.h"
@@ -120,10 +121,12 @@ const std::filesystem::path& with_its_folder(const std::filesystem::path& file) 
 /// The page of --report. Its file is opened before anything runs, so that what is wrong with its name is told at once.
 class ReportFile {
 public:
-    ReportFile(const std::filesystem::path& path, const scene::SceneFile& scene)
+    ReportFile(const std::filesystem::path& path, const scene::SceneFile& scene, const std::vector<int>& frames)
         : path_(path), file_(with_its_folder(path)) {
         std::vector<std::filesystem::path> inputs = scene.files;
-        inputs.insert(inputs.end(), {scene.scene.file, scene.scene.gbuffer.file, scene.scene.gbuffer.beauty_file});
+        inputs.push_back(scene.scene.file);
+        for (const int frame : frames.empty() ? std::vector{0} : frames)
+            for (const std::filesystem::path& file : scene.kept_files) inputs.push_back(frame_path(file, frame));
         refuse_to_replace(path, inputs);
     }
 
@@ -180,7 +183,7 @@ void run(const RunArguments& arguments) {
         set_image_threads(arguments.threads);
     }
     std::optional<ReportFile> page;
-    if (!arguments.report.empty()) page.emplace(arguments.report, file);
+    if (!arguments.report.empty()) page.emplace(arguments.report, file, frames);
     options.progress = progress_bar(!arguments.quiet && !arguments.json);
     if (!frames.empty() && (arguments.json || (!arguments.quiet && !options.progress)))
         options.frame_done = FrameLines(frames.size(), arguments.json);
@@ -191,7 +194,12 @@ void run(const RunArguments& arguments) {
         for (const std::string& warning : report.warnings) fmt::print(stderr, "wrinkle: warning: {}\n", warning);
         print_table(report);
     }
-    if (page) page->write(arguments, scenes, report, options);
+    try {
+        if (page) page->write(arguments, scenes, report, options);
+    } catch (const Error&) {
+        tell_failures(report, arguments.strict);  // they matter more
+        throw;
+    }
     tell_failures(report, arguments.strict);
 }
 

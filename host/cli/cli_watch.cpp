@@ -45,7 +45,7 @@ void add_watch(CLI::App& app) {
     command->add_option("--frame", arguments->options.frame, "frame number, for names with ####")->type_name("N");
     command->add_option("--port", arguments->options.port, "of 127.0.0.1; without it any that is free")
         ->type_name("PORT")
-        ->check(CLI::Range(1, 65535));
+        ->check(CLI::Range(1024, 65535));
     command->add_flag("--no-open", arguments->no_open, "print the page's address, and open no browser");
     add_device_option(*command, arguments->options.device);
     command->callback([arguments] {

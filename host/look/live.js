@@ -93,7 +93,6 @@ function numberRow(number) {
     row.dataset.id = number.id;
     const turn = value => {
         if (!Number.isFinite(value)) return;
-        if (!number.whole) value = Number(value.toPrecision(4));
         show(value);
         changes[number.id] = value;
         sendNumbers({...changes});
@@ -104,7 +103,7 @@ function numberRow(number) {
         slider.value = value;
         if (document.activeElement !== box) box.value = value;
     };
-    slider.oninput = () => turn(+slider.value);
+    slider.oninput = () => turn(number.whole ? +slider.value : Number((+slider.value).toPrecision(4)));
     box.onchange = () => turn(box.value === "" ? NaN : +box.value);
     show(number.value);
     rows.set(number.id, {row, show, slider, box});

@@ -23,6 +23,8 @@ Scene without_layers(Scene scene, const std::set<std::size_t>& off) {
         if (i >= scene.layers.size()) continue;
         Layer& layer = scene.layers[i];
         layer.scale = std::holds_alternative<ParallaxLayer>(layer.bump) ? nanometre : 0;
+        // One that is flat may turn the surface towards its axis all the same.
+        if (DecalLayer* const decal = std::get_if<DecalLayer>(&layer.bump)) decal->opacity = 0;
     }
     return scene;
 }

@@ -44,7 +44,6 @@ public:
 
     /// Opens the frame anew. Throws Error, and then keeps the one that it had.
     void open(const Scene& scene, int frame);
-    bool is_open() const { return reader_ != nullptr; }
     /// Reads them again when they are next needed.
     void forget_textures();
 

@@ -22,6 +22,7 @@ namespace {
 /// The scene with nothing but its decals. Throws Error where it has none.
 Scene decals_of(Scene scene) {
     std::erase_if(scene.layers, [](const Layer& layer) { return !kind_of(layer_kinds(), layer).without_normal; });
+    scene.lighting = {};  // which has masks of its own
     if (!scene.layers.empty()) return scene;
     throw Error(fmt::format("{}: no layer is of kind decal or decals, so there is nothing to accumulate",
                             scene.file.empty() ? "the scene" : scene.file.string()));
@@ -51,15 +52,20 @@ public:
         Device device = Device::open(options_.device);
         if (options_.lanes != 0) device.info.lanes = options_.lanes;
         TextureStore store(device);
-        MaskMatches matches(decals_of(scene_));
+        std::optional<MaskMatches> matches;
         const std::vector<int> frames = options_.frames.empty() ? std::vector<int>{0} : options_.frames;
         for (const int number : frames) {
             if (options_.scene_of_frame) pass_.reset();
-            accumulate_frame(device, options_.scene_of_frame ? options_.scene_of_frame(number) : scene_, store, matches,
-                             number);
+            const Scene scene = options_.scene_of_frame ? options_.scene_of_frame(number) : scene_;
+            MaskMatches looks_for(decals_of(scene));
+            if (!matches || !matches->looks_for_the_same(looks_for)) {
+                if (matches) add(matches->warnings());
+                matches = std::move(looks_for);
+            }
+            accumulate_frame(device, scene, store, *matches, number);
             if (options_.scene_of_frame) store.keep_latest();
         }
-        add(matches.warnings());
+        if (matches) add(matches->warnings());
         return std::move(report_);
     }
 
@@ -102,7 +108,7 @@ private:
             return *pass_;
         }
         Scene alone = scene;
-        alone.lighting = {}, alone.output = {};
+        alone.output = {};
         pass_.emplace(accumulate_decals(device, alone, frame, {}, &store));
         pass_frame_ = frame;
         return *pass_;

@@ -91,8 +91,10 @@ std::string slurm_script(const FarmJob& job) {
 }
 
 std::string opencue_outline(const FarmJob& job) {
+    // OpenCue joins the words by spaces, and a shell reads them.
     std::vector<std::string> command;
-    for (const std::string& argument : command_with(job, "#FRAMESPEC#")) command.push_back(quote(argument));
+    for (const std::string& argument : job.command) command.push_back(quote(shell_quote(argument)));
+    command.push_back(quote("#FRAMESPEC#"));
     return fmt::format(
         "#!/usr/bin/env python3\n"
         "import getpass\n"

@@ -23,14 +23,15 @@ FrameAhead FramesAhead::take(int number, std::optional<int> next) {
         if (next) next_ = std::async(std::launch::async, [this, next] { return open(*next); });
     };
     if (!next_.valid()) next_ = std::async(std::launch::deferred, [this, number] { return open(number); });
+    std::optional<FrameAhead> frame;
     try {
-        FrameAhead frame = next_.get();
-        begin_next();
-        return frame;
+        frame.emplace(next_.get());
     } catch (...) {
-        begin_next();
+        if (options_.keep_going) begin_next();
         throw;
     }
+    begin_next();
+    return std::move(*frame);
 }
 
 bool FramesAhead::is_finished(int number, const std::string& provenance) const {

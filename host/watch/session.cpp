@@ -101,7 +101,7 @@ void WatchSession::load() {
         look_.open(file_.scene, frame_.value_or(0));
         frame_tables_ = std::move(tables);
         reopen_ = false;
-        ++frame_version_;
+        doubt_ = true;
     }
 }
 
@@ -121,9 +121,10 @@ bool WatchSession::evaluate() {
                 if (off_.contains(file_.scene.layers[i].name)) off.insert(i);
             image_ = look_.evaluate(file_.scene, off, condition_);
         });
-        if (image_->built) {
+        if (image_->built || doubt_) {
             warnings_ = frame_warnings(file_.scene, look_.reader(), look_.camera());
             warnings_.insert(warnings_.end(), look_.doubts().begin(), look_.doubts().end());
+            doubt_ = false;
         }
         error_.clear();
         seconds_ = seconds_since(start);

@@ -62,7 +62,8 @@ private:
     std::vector<scene::SceneNumber> shown_numbers_;
     std::shared_ptr<const LookImage> image_;
     double seconds_ = 0;
-    std::uint64_t version_ = 0, frame_version_ = 0;  ///< of what is shown; of the frame under it
+    std::uint64_t version_ = 0;  ///< of what is shown
+    bool doubt_ = true;          ///< the frame was opened since its warnings were made
 };
 
 }  // namespace wrinkle

@@ -151,7 +151,7 @@ def on_opencue(scene, folder):
     script = ("import runpy, sys; job = runpy.run_path(sys.argv[1])['job']; layer = job.get_layers()[0];"
               "print(layer.get_frame_range(), layer.get_chunk_size(), *layer.get_arg('command')[-2:])")
     said = run(sys.executable, "-c", script, folder / "wrinkle.outline.py").split()
-    assert said == [f"1-{FRAMES}", "6", "--frames", "#FRAMESPEC#"], said
+    assert said == [f"1-{FRAMES}", "6", "'--frames'", "#FRAMESPEC#"], said
     print("opencue: its library reads the outline")
 
 

@@ -47,11 +47,12 @@ TEST(FarmJob, OpenJobDescriptionIsJson) {
     EXPECT_NE(openjd_template(odd).find("\"NONCONTIGUOUS\""), std::string::npos);
 }
 
-TEST(FarmJob, OutlinesQuoteAsPythonDoes) {
+TEST(FarmJob, OutlinesQuoteForPythonAndTheShell) {
     const std::string outline = opencue_outline(job);
     EXPECT_NE(outline.find(R"(Outline("wall \"west\"",)"), std::string::npos) << outline;
-    EXPECT_NE(outline.find(R"(command=["wrinkle", "run", "/shots/it's/wall.toml", "--frames", "#FRAMESPEC#"])"),
-              std::string::npos)
+    EXPECT_NE(
+        outline.find(R"(command=["'wrinkle'", "'run'", "'/shots/it'\\''s/wall.toml'", "'--frames'", "#FRAMESPEC#"])"),
+        std::string::npos)
         << outline;
     EXPECT_NE(outline.find("range=\"1-7\",\n        chunk=3,"), std::string::npos) << outline;
 }

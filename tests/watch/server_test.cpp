@@ -2,6 +2,13 @@
 #include "watch/server.h"
 
 #include <gtest/gtest.h>
+#include <httplib.h>
+
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "watch/board.h"
 
 namespace wrinkle {
 namespace {
@@ -32,6 +39,28 @@ TEST(WatchServer, PicturesAreNotForOtherSites) {
     EXPECT_EQ(why_refused({"GET", "localhost:8080", "", "same-origin"}, kPort), "");
     for (const char* site : {"cross-site", "same-site"})
         EXPECT_NE(why_refused({"GET", "localhost:8080", "", site}, kPort), "") << site;
+}
+
+/// The same over a socket: nothing of the above helps a server that does not ask.
+TEST(WatchServer, RefusesOthersOverItsSocket) {
+    WatchBoard board;
+    board.show({1, "{}", nullptr});
+    WatchServer server(board, 0);
+    std::jthread serving([&] { server.serve(); });
+    httplib::Client client("127.0.0.1", server.port());
+    const std::string here = fmt::format("127.0.0.1:{}", server.port());
+    const auto status = [](const httplib::Result& result) { return result ? result->status : 0; };
+    EXPECT_EQ(status(client.Get("/state?after=0")), 200);
+    EXPECT_EQ(status(client.Get("/state?after=0", {{"Host", "evil.example"}})), 403);
+    EXPECT_EQ(status(client.Get("/state?after=0", {{"Sec-Fetch-Site", "cross-site"}})), 403);
+    EXPECT_EQ(status(client.Post("/numbers", "{}", "application/json")), 403);
+    EXPECT_EQ(status(client.Post("/numbers", {{"Origin", "http://evil.example"}}, "{}", "application/json")), 403);
+    EXPECT_EQ(status(client.Post("/numbers", {{"Origin", "http://" + here}}, "nonsense", "application/json")), 400);
+    for (const char* path :
+         {"/picture/../scene.toml", "/scene.toml", "/picture/%2e%2e%2fscene.toml", "/picture/normal"})
+        EXPECT_EQ(status(client.Get(path)), 404) << path;
+    board.stop();
+    server.stop();
 }
 
 }  // namespace
