@@ -24,7 +24,8 @@ Scene without_layers(Scene scene, const std::set<std::size_t>& off) {
         Layer& layer = scene.layers[i];
         layer.scale = std::holds_alternative<ParallaxLayer>(layer.bump) ? nanometre : 0;
         // One that is flat may turn the surface towards its axis all the same.
-        if (DecalLayer* const decal = std::get_if<DecalLayer>(&layer.bump)) decal->opacity = 0;
+        if (DecalLayer* const decal = std::get_if<DecalLayer>(&layer.bump))
+            decal->half_size = {nanometre, nanometre, nanometre};
     }
     return scene;
 }
