@@ -1,6 +1,8 @@
 #include "io/image_open.h"
 
 #include <fmt/format.h>
+#include <webp/decode.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -90,6 +92,16 @@ void check_dpx(const InputFile& file) {
                                 file.size(), said));
 }
 
+/// Throws Error for a WebP file that is too small for what it claims: OpenImageIO decodes it as it opens it.
+void check_webp(const InputFile& file) {
+    std::array<std::uint8_t, 4096> head{};  // what its dimensions stand in
+    int width = 0, height = 0;
+    if (WebPGetInfo(head.data(), file.read_at(0, head.data(), head.size()), &width, &height) == 0) return;
+    constexpr double kPixel = 4;  // bytes
+    check_claim(file.name(), {fmt::format("a picture of {}x{} pixels", width, height), kPixel * width * height,
+                              file.size(), kDeflate * kPixel});
+}
+
 }  // namespace
 
 OpenImage::OpenImage(const std::filesystem::path& file, const OIIO::ImageSpec& options)
@@ -112,6 +124,7 @@ OpenImage::OpenImage(std::shared_ptr<const InputFile> file, const OIIO::ImageSpe
     }
     if (format == "dds") check_dds(*file_);
     if (format == "dpx") check_dpx(*file_);
+    if (format == "webp") check_webp(*file_);
     OIIO::geterror();  // forgets messages of earlier calls
     input_ = OIIO::ImageInput::create(std::string(format));
     OIIO::ImageSpec spec, with_proxy = options;

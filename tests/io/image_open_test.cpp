@@ -92,6 +92,16 @@ TEST(ImageOpen, NoPixelsAreNoImage) {
                     {"empty.hdr: 2 x 0 pixels", "there is nothing in it"});
 }
 
+/// The header of a lossy WebP of 16383 x 16383 pixels, and little more.
+TEST(ImageOpen, WebpIsAskedBeforeItIsDecoded) {
+    const TempFolder folder;
+    const std::string frame = std::string("\x10\x00\x00\x9d\x01\x2a\xff\x3f\xff\x3f", 10) + std::string(118, '\x55');
+    const std::string body = "WEBPVP8 " + std::string("\x80\x00\x00\x00", 4) + frame;
+    write_text(folder / "huge.webp", "RIFF" + std::string("\x8c\x00\x00\x00", 4) + body);
+    expect_mentions(error_of([&] { load_texture(folder / "huge.webp", ImageUse::scalar); }),
+                    {"huge.webp: it claims a picture of 16383x16383 pixels", "in a file of"});
+}
+
 TEST(ImageOpen, DisplaysAreNoMemoryEither) {
     const TempFolder folder;
     auto spec = make_spec(16, 16, {"Y"}, OIIO::TypeUInt8);
