@@ -78,18 +78,27 @@ void check_dds(const InputFile& file) {
                                 file.name(), file.size(), 128 + bytes));
 }
 
-/// Throws Error for a DPX file that is shorter than it says. OpenImageIO reads what is missing as zeros.
+/// Throws Error for a DPX file that is shorter than it says, or too small for its rows: OpenImageIO reads what is
+/// missing as zeros, and takes memory for a row as it opens a file.
 void check_dpx(const InputFile& file) {
-    constexpr std::size_t size_at = 16;
-    std::array<unsigned char, size_at + 4> header{};
+    constexpr std::size_t size_at = 16, width_at = 772, height_at = 776;
+    std::array<unsigned char, height_at + 4> header{};
     if (file.read_at(0, header.data(), header.size()) < header.size()) return;
     const bool big_endian = header[0] == 'S';
-    std::uint32_t said = 0;
-    for (std::size_t i = 0; i < 4; ++i) said = said << 8 | header[size_at + (big_endian ? i : 3 - i)];
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | header[at + (big_endian ? i : 3 - i)];
+        return value;
+    };
+    const std::uint32_t said = word(size_at);
     const bool is_set = said != UINT32_MAX;
     if (is_set && file.size() < said)
         throw Error(fmt::format("{}: the DPX is truncated: {} bytes of {}; was it still being written?", file.name(),
                                 file.size(), said));
+    constexpr double kPixel = 4 * sizeof(float);
+    const std::uint32_t width = word(width_at), height = word(height_at);
+    check_claim(file.name(), {fmt::format("a picture of {}x{} pixels", width, height),
+                              kPixel * width * std::max(height, 1U), file.size(), kDeflate * sizeof(float)});
 }
 
 /// Throws Error for a WebP file that is too small for what it claims: OpenImageIO decodes it as it opens it.
