@@ -78,10 +78,10 @@ void check_dds(const InputFile& file) {
                                 file.name(), file.size(), 128 + bytes));
 }
 
-/// Throws Error for a DPX file that is shorter than it says, or too small for its rows: OpenImageIO reads what is
-/// missing as zeros, and takes memory for a row as it opens a file.
+/// Throws Error for a DPX file that is shorter than it says, or than its user data, or too small for its rows:
+/// OpenImageIO reads what is missing as zeros, and takes memory for a row as it opens a file.
 void check_dpx(const InputFile& file) {
-    constexpr std::size_t size_at = 16, width_at = 772, height_at = 776;
+    constexpr std::size_t size_at = 16, user_data_at = 32, width_at = 772, height_at = 776;
     std::array<unsigned char, height_at + 4> header{};
     if (file.read_at(0, header.data(), header.size()) < header.size()) return;
     const bool big_endian = header[0] == 'S';
@@ -90,11 +90,12 @@ void check_dpx(const InputFile& file) {
         for (std::size_t i = 0; i < 4; ++i) value = value << 8 | header[at + (big_endian ? i : 3 - i)];
         return value;
     };
-    const std::uint32_t said = word(size_at);
-    const bool is_set = said != UINT32_MAX;
-    if (is_set && file.size() < said)
-        throw Error(fmt::format("{}: the DPX is truncated: {} bytes of {}; was it still being written?", file.name(),
-                                file.size(), said));
+    for (const std::uint32_t said : {word(size_at), word(user_data_at)}) {
+        const bool is_set = said != UINT32_MAX;
+        if (is_set && file.size() < said)
+            throw Error(fmt::format("{}: the DPX is truncated: {} bytes of {}; was it still being written?",
+                                    file.name(), file.size(), said));
+    }
     constexpr double kPixel = 4 * sizeof(float);
     const std::uint32_t width = word(width_at), height = word(height_at);
     check_claim(file.name(), {fmt::format("a picture of {}x{} pixels", width, height),

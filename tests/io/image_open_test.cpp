@@ -112,6 +112,11 @@ TEST(ImageOpen, DpxIsAskedBeforeItIsOpened) {
     write_text(folder / "wide.dpx", bytes);
     expect_mentions(error_of([&] { load_texture(folder / "wide.dpx", ImageUse::scalar); }),
                     {"wide.dpx: it claims a picture of 2139062143x1 pixels", "in a file of"});
+    constexpr std::size_t kUserDataAt = 32;
+    bytes.replace(kUserDataAt, 4, 4, '\x7f');
+    write_text(folder / "user.dpx", bytes);
+    expect_mentions(error_of([&] { load_texture(folder / "user.dpx", ImageUse::scalar); }),
+                    {"user.dpx: the DPX is truncated: 2048 bytes of 2139062143"});
 }
 
 TEST(ImageOpen, DisplaysAreNoMemoryEither) {
