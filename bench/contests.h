@@ -25,8 +25,8 @@ void measure_screen(const Device& device, Size size, Run& run);
 void measure_cores(const Device& device, Size size, Run& run);
 
 /// `wrinkle run` on a generated frame of 27 channels, beside programs that only read and write the same files: oiiotool
-/// for normals alone, and for all passes (`passthrough`); OpenEXR and libpng for the files of a run as it is by default.
-/// Group "files". Without oiiotool it says so and measures nothing.
+/// for normals alone, and for all passes (`passthrough`); OpenEXR and libpng for the files of a run as it is by
+/// default. Group "files". Without oiiotool it says so and measures nothing.
 void measure_files(Size size, Run& run);
 
 /// Resolve from normals and gradients stored as float, half, or octahedral integers. Group "storage".
