@@ -43,10 +43,7 @@ void accumulate_decals(const DecalsArguments& arguments) {
     options.device = arguments.device;
     options.lanes = arguments.lanes;
     const bool differ = !file.frame_files.empty();
-    if (differ && arguments.scene == "-")
-        throw Error(
-            "a scene whose textures or tables differ from frame to frame is read again for each; give a file in place "
-            "of standard input");
+    if (differ) check_can_be_read_again(arguments.scene);
     if (differ) options.scene_of_frame = [&](int frame) { return load(arguments, frame).scene; };
     options.provenance = [&](int frame) {
         RenderOptions run;

@@ -166,10 +166,7 @@ void run(const RunArguments& arguments) {
     if (!arguments.keep_going) check_frames_exist(files, frames);
     check_output_name("[output] name =", scene.output.name, frames);
     if (!file.frame_files.empty()) {
-        if (arguments.scene == "-")
-            throw Error(
-                "a scene whose textures or tables differ from frame to frame is read again for each; give a "
-                "file in place of standard input");
+        check_can_be_read_again(arguments.scene);
         options.scene_of_frame = [&](int frame) { return scenes.at(frame).scene; };
     }
     // Lights that are fitted are those of the first frame.

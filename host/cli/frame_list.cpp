@@ -90,6 +90,13 @@ void check_frame_pattern(const std::vector<std::filesystem::path>& files, const 
                         option, files.front().string()));
 }
 
+void check_can_be_read_again(const std::filesystem::path& scene) {
+    if (scene == "-")
+        throw Error(
+            "a scene whose textures or tables differ from frame to frame is read again for each; give a file in place "
+            "of standard input");
+}
+
 void check_frames_exist(const std::vector<std::filesystem::path>& files, const std::vector<int>& frames) {
     constexpr std::size_t most_named = 5;
     std::vector<std::string> missing;

@@ -28,6 +28,9 @@ void check_frame_pattern(const std::vector<std::filesystem::path>& files, const 
 /// `what` says whose name it is.
 void check_output_name(const char* what, const std::string& name, const std::vector<int>& frames);
 
+/// Throws Error for the scene of standard input, where one has textures or tables that differ from frame to frame.
+void check_can_be_read_again(const std::filesystem::path& scene);
+
 /// Throws Error when files of some frames are missing, and names them.
 void check_frames_exist(const std::vector<std::filesystem::path>& files, const std::vector<int>& frames);
 
