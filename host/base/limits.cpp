@@ -119,6 +119,8 @@ MemoryLimit memory_limit() {
     return least;
 }
 
+bool is_memory_set() { return limits().memory != 0 || memory_of_environment().has_value(); }
+
 void check_memory(const std::string& name, double bytes, const std::string& what) {
     if (bytes <= kHarmless) return;
     const MemoryLimit limit = memory_limit();

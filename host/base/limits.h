@@ -20,6 +20,9 @@ struct MemoryLimit {
 };
 MemoryLimit memory_limit();
 
+/// Whether somebody has said how much memory this process may take, by --memory or WRINKLE_MEMORY.
+bool is_memory_set();
+
 /// Throws Error, beginning with `name`, when `what`, which takes `bytes`, is more than memory_limit() leaves. Asked
 /// before everything large, it keeps the whole process within its limit.
 void check_memory(const std::string& name, double bytes, const std::string& what);

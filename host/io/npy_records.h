@@ -26,6 +26,7 @@ public:
 
     const std::vector<Field>& fields() const { return fields_; }
     std::size_t rows() const { return rows_; }
+    std::size_t file_bytes() const { return bytes_.size(); }
     /// The number of a row in a field of numbers. Integers beyond 2^53 are rounded.
     double number(std::size_t row, const Field& field) const;
     /// The text of a row in a field of text. Characters of kind U that are not ASCII become '?'.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/atomic_file.h"
+#include "base/claim.h"
 #include "base/limits.h"
 #include "base/only_errors.h"
 #include "base/text_file.h"
@@ -17,10 +18,20 @@ namespace wrinkle {
 namespace scene {
 namespace {
 
-/// Asks for the memory of all rows before the first of them takes any.
-void check_rows(const std::filesystem::path& file, std::size_t rows) {
+/// Asks for the memory of all rows before the first of them takes any. Rows of a few bytes each become far more memory
+/// than their file is long; beyond what tables of real decals come to, somebody has to have allowed it.
+void check_rows(const std::filesystem::path& file, std::size_t rows, std::uint64_t file_bytes) {
     constexpr double kBytesARow = 1300;  // measured: a row, what kernels get of it, and the bins that it lies in
-    check_memory(file.string(), kBytesARow * static_cast<double>(rows), fmt::format("a table of {} decals", rows));
+    constexpr double kUnasked = 256e6, kRowOverText = 32;
+    const double wanted = kBytesARow * static_cast<double>(rows);
+    const std::string what = fmt::format("a table of {} decals", rows);
+    check_memory(file.string(), wanted, what);
+    const double table = sizeof(Projector) * static_cast<double>(rows), bytes = static_cast<double>(file_bytes);
+    if (table > kUnasked + kRowOverText * bytes && !is_memory_set())
+        throw Error(
+            fmt::format("{}: {} in a file of {} would take {} of memory; if it is meant, allow that by "
+                        "--memory or WRINKLE_MEMORY, in GB",
+                        file.string(), what, bytes_text(bytes), bytes_text(wanted)));
 }
 
 std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t textures) {
@@ -40,7 +51,7 @@ std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t t
         }
     };
     const std::string text = read_text(file, "a table of decals", kAnyLength);
-    check_rows(file, static_cast<std::size_t>(std::ranges::count(text, '\n')));
+    check_rows(file, static_cast<std::size_t>(std::ranges::count(text, '\n')), text.size());
     io::read_csv_rows(text, file.string(), io::CsvComments::lines, take);
     if (reader.header().empty())
         reader.complain_of_file(0, "holds no table; its first line names the columns, at least x,y,z");
@@ -49,7 +60,7 @@ std::vector<Projector> load_csv(const std::filesystem::path& file, std::size_t t
 
 std::vector<Projector> load_npy(const std::filesystem::path& file, std::size_t textures) {
     const io::NpyRecords records(file);
-    check_rows(file, records.rows());
+    check_rows(file, records.rows(), records.file_bytes());
     DecalReader reader(file.string(), textures, DecalReader::Form::npy);
     std::vector<std::string> names;
     for (const io::NpyRecords::Field& field : records.fields()) names.push_back(field.name);

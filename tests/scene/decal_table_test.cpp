@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tests/scene/decal_forms.h"
+#include "wrinkle/limits.h"
 
 namespace wrinkle {
 namespace {
@@ -72,6 +73,17 @@ TEST_F(DecalTable, ReportsManyMistakesButNotAll) {
     const std::string message = refusal("decals.csv", text);
     EXPECT_EQ(std::ranges::count(message, '\n'), 20);
     EXPECT_NE(message.find("decals.csv:1001: and 980 more mistakes"), std::string::npos) << message;
+}
+
+TEST_F(DecalTable, TakesFarMoreMemoryThanItsFileOnlyWhenAllowed) {
+    std::string text = "x,y,z\n";
+    for (int i = 0; i < 3'000'000; ++i) text += "1,2,3\n";
+    expect_refused(text, {"decals.csv: a table of 3000001 decals in a file of 18.0 MB would take 3.9 GB of memory",
+                          "allow that by --memory or WRINKLE_MEMORY"});
+    set_limits({.memory = std::uint64_t{2} << 30, .sandbox = {}, .volume_reader = {}});
+    expect_refused(text,
+                   {"decals.csv: a table of 3000001 decals would take 3.9 GB", "the limit of --memory is 2.1 GB"});
+    set_limits({});
 }
 
 TEST_F(DecalTable, ReadsBackWhatWasSaved) {
