@@ -34,6 +34,9 @@ public:
     /// disk fails.
     std::size_t read_at(std::uint64_t offset, void* to, std::size_t size) const;
 
+    /// Asks the system to fetch all of it from its disk or server, and does not wait for that.
+    void read_ahead() const;
+
     /// All of it. Throws Error.
     std::string read_all() const;
 

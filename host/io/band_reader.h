@@ -28,6 +28,8 @@ class BandReader {
 public:
     BandReader(OpenImage image, const ImageParts& what);
 
+    void read_ahead() const { image_.file()->read_ahead(); }
+
     /// Rows [row_begin, row_end) of the frame. Throws Error naming the first row that cannot be read.
     void read(std::uint32_t row_begin, std::uint32_t row_end, std::span<const WantedChannel> wanted);
 

@@ -248,12 +248,16 @@ void GBufferReader::require(std::span<const std::string> planes) const {
     }
 }
 
+void GBufferReader::read_ahead() const {
+    impl_->reader->read_ahead();
+    if (impl_->beauty) impl_->beauty->read_ahead();
+}
+
 void GBufferReader::read_rows(std::uint32_t row_begin, std::uint32_t row_end, std::span<const std::string> planes,
                               std::span<float* const> out) const {
-    if (row_begin > row_end || row_end > size().height || planes.size() != out.size()) {
+    if (row_begin > row_end || row_end > size().height || planes.size() != out.size())
         throw Error(fmt::format("{}: rows {} to {} of {} planes into {} were asked for; the frame has {} rows",
                                 path().string(), row_begin, row_end, planes.size(), out.size(), size().height));
-    }
     require(planes);
     std::map<io::BandReader*, std::vector<io::WantedChannel>> wanted;
     for (std::size_t i = 0; i < planes.size(); ++i)

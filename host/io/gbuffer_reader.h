@@ -79,6 +79,9 @@ public:
 
     const CryptomatteManifest& cryptomatte() const;  ///< of the cryptomatte that has the role; may be empty
 
+    /// Has the system fetch the files of a frame that will be read later, without waiting for them.
+    void read_ahead() const;
+
     /// Reads rows [row_begin, row_end), counted from the top, of planes[i] into out[i], which holds
     /// (row_end - row_begin) * width floats. Roles come in wrinkle's form: normals unpacked and in world space, object
     /// numbers as labels (io/object_ids.h), v upwards. Throws Error when a row cannot be read.

@@ -61,6 +61,7 @@ FrameAhead FramesAhead::open(int number) {
         ahead.scene = scene_of(number);
         if (lights_) ahead.lights = summary(*lights_);
         GBufferReader reader = open_frame(*ahead.scene, number);
+        reader.read_ahead();
         const FrameCamera camera = camera_of_frame(*ahead.scene, reader, number);
         check_outputs(*ahead.scene, reader, options_.directory, given(options_, number));
         ahead.open = OpenFrame{.frame = frame_of(*ahead.scene, reader, camera),

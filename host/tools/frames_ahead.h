@@ -29,7 +29,7 @@ struct FrameAhead {
     std::optional<OpenFrame> open;       ///< nothing: its files are there already
 };
 
-/// Opens the frames of a run, each while the one before it is evaluated.
+/// Opens the frames of a run and has the system fetch them, each while the one before it is evaluated.
 class FramesAhead {
 public:
     FramesAhead(const Scene& scene, const RenderOptions& options, PhaseClock& clock)

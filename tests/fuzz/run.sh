@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # run.sh FOLDER SECONDS [HARNESS...]: runs the harnesses (all, unless some are named) of the built FOLDER for SECONDS
-# each, from the corpus that FOLDER/corpus keeps, which begins with the files of data/ and with corpus/*.zip of this
-# folder. Fails at the first find, which lies in FOLDER/finds then.
+# each, one a core, from the corpus that FOLDER/corpus keeps, which begins with the files of data/ and with corpus/*.zip
+# of this folder. Fails at the first find, which lies in FOLDER/finds then.
 set -euo pipefail
 folder=$(readlink -f "$1")
 seconds=$2
@@ -35,21 +35,25 @@ longest_of() {
     esac
 }
 
-[ $# -gt 0 ] || set -- $(cd "$folder/tests/fuzz" && ls -d ./*_fuzz)
-for name in "${@#./}"; do
-    corpus=$folder/corpus/$name
-    mkdir -p "$corpus" "$folder/finds"
-    seeds_of "$name" | while read -r seed; do cp -n "$seed" "$corpus/$(sha1sum <"$seed" | cut -c1-16)"; done
-    [ ! -f "$here/corpus/$name.zip" ] || python3 -m zipfile -e "$here/corpus/$name.zip" "$corpus"
-    log=$folder/finds/$name.log
-    longest=$(longest_of "$name")
-    # Twenty times the input, and 256 MB, are what a reader may allocate at once.
-    if ! "$folder/tests/fuzz/$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 \
-        -malloc_limit_mb=$((256 + 20 * longest / 1000000)) -max_len="$longest" -artifact_prefix="$folder/finds/$name-" \
-        -print_final_stats=1 >"$log" 2>&1; then
-        tail -n 60 "$log"
-        echo "$name: a find, in $folder/finds" >&2
-        exit 1
-    fi
-    echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs in $seconds s"
-done
+if [ $# -ne 1 ]; then
+    [ $# -gt 0 ] || set -- $(cd "$folder/tests/fuzz" && ls -d ./*_fuzz)
+    printf '%s\n' "${@#./}" | xargs -n 1 -P "$(nproc)" "$here/run.sh" "$folder" "$seconds"
+    exit
+fi
+
+name=${1#./}
+corpus=$folder/corpus/$name
+mkdir -p "$corpus" "$folder/finds"
+seeds_of "$name" | while read -r seed; do cp -n "$seed" "$corpus/$(sha1sum <"$seed" | cut -c1-16)"; done
+[ ! -f "$here/corpus/$name.zip" ] || python3 -m zipfile -e "$here/corpus/$name.zip" "$corpus"
+log=$folder/finds/$name.log
+longest=$(longest_of "$name")
+# Twenty times the input, and 256 MB, are what a reader may allocate at once.
+if ! "$folder/tests/fuzz/$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 \
+    -malloc_limit_mb=$((256 + 20 * longest / 1000000)) -max_len="$longest" -artifact_prefix="$folder/finds/$name-" \
+    -print_final_stats=1 >"$log" 2>&1; then
+    tail -n 60 "$log"
+    echo "$name: a find, in $folder/finds" >&2
+    exit 255  # ends xargs, too
+fi
+echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs in $seconds s"

@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "tests/device/test_device.h"
+#include "tests/io/files.h"
+#include "tools/render.h"
 #include "wrinkle/error.h"
 #include "wrinkle/functions.h"
 #include "wrinkle/gbuffer.h"
@@ -151,6 +153,22 @@ TEST(Threads, LoadScenesAndTables) {
         EXPECT_FALSE(scene.layers.empty());
         EXPECT_THROW(load_scene("missing.toml"), Error);
     });
+}
+
+/// The next frame is opened, and looked at, while one is evaluated and the files of another are written.
+TEST(Threads, OpenFramesAhead) {
+    const TempFolder folder;
+    for (int frame = 1; frame <= 4; ++frame)
+        write_exr(folder / ("frame." + std::to_string(frame) + ".exr"), 67, 43, {"N.X", "N.Y", "N.Z", "Z"},
+                  [](int channel, int, int) { return channel == 2   ? 1.0f
+                                                     : channel == 3 ? 3.0f
+                                                                    : 0.0f; });
+    Scene scene = Ground(7).scene;
+    scene.gbuffer.file = folder / "frame.#.exr";
+    scene.camera.look_at = CameraSource::LookAt{.eye = {0, -1, 3}, .target = {0, 0, 0}, .fov_y = 0.8};
+    const RenderReport report = render(scene, {.directory = folder / "out", .frames = {1, 2, 3, 4}});
+    EXPECT_EQ(report.frames, 4);
+    EXPECT_TRUE(report.failed.empty());
 }
 
 TEST(Threads, ReadOneScene) {
