@@ -64,16 +64,16 @@ TEST(GBufferReader, BandsThatOverlapReadTheSame) {
     first.attribute("oiio:subimagename", "N"), second.attribute("oiio:subimagename", "depth");
     const struct {
         const char* name;
-        std::vector<OIIO::ImageSpec> parts;
+        std::vector<PartSpec> parts;
         Plane depth, other;
-    } files[] = {{"lines.exr", {lines}, {"depth", 4}, {"channel:U", 3}},
-                 {"tiles.exr", {tiles}, {"depth", 4}, {"channel:U", 3}},
-                 {"crop.exr", {crop}, {"depth", 4}, {"channel:U", 3}},
-                 {"parts.exr", {first, second}, {"depth", 1}, {"channel:depth.U", 0}}};
+    } files[] = {{"lines.exr", {{lines}}, {"depth", 4}, {"channel:U", 3}},
+                 {"tiles.exr", {{tiles}}, {"depth", 4}, {"channel:U", 3}},
+                 {"crop.exr", {{crop}}, {"depth", 4}, {"channel:U", 3}},
+                 {"parts.exr", {{first}, {second}}, {"depth", 1}, {"channel:depth.U", 0}}};
     for (const auto& file : files) {
-        write_image(folder / file.name, {file.parts.begin(), file.parts.end()});
+        write_image(folder / file.name, file.parts);
         const GBufferReader reader(folder / file.name);
-        const int top = file.parts.front().y;
+        const int top = file.parts.front().spec.y;
         const auto expect = [&](int begin, int end, const std::vector<Plane>& planes) {
             Names names;
             for (const Plane& plane : planes) names.push_back(plane.first);

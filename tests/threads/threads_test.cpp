@@ -166,7 +166,11 @@ TEST(Threads, OpenFramesAhead) {
     Scene scene = Ground(7).scene;
     scene.gbuffer.file = folder / "frame.#.exr";
     scene.camera.look_at = CameraSource::LookAt{.eye = {0, -1, 3}, .target = {0, 0, 0}, .fov_y = 0.8};
-    const RenderReport report = render(scene, {.directory = folder / "out", .frames = {1, 2, 3, 4}});
+    RenderOptions options;
+    options.directory = folder / "out";
+    options.frames = {1, 2, 3, 4};
+    options.device = test_device_name();
+    const RenderReport report = render(scene, options);
     EXPECT_EQ(report.frames, 4);
     EXPECT_TRUE(report.failed.empty());
 }
