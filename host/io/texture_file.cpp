@@ -205,7 +205,10 @@ Image load_tiles(const TextureUse& use) {
                 for (int c = 0; c < image.channels; ++c) {
                     const auto column = static_cast<std::size_t>(tile.column * width + x);
                     const auto row = static_cast<std::size_t>(tile.row * height + y);
-                    const int by = use.content != Content::slope ? 1 : c == 0 ? span.columns : span.rows;
+                    const int of_s[] = {1, 0, 2, 1, 0}, of_t[] = {0, 1, 0, 1, 2};  // powers of the factors
+                    int by = 1;
+                    for (int k = 0; use.content == Content::slope && k < of_s[c]; ++k) by *= span.columns;
+                    for (int k = 0; use.content == Content::slope && k < of_t[c]; ++k) by *= span.rows;
                     all.texels[(row * static_cast<std::size_t>(all.width) + column) *
                                    static_cast<std::size_t>(all.channels) +
                                static_cast<std::size_t>(c)] = static_cast<float>(by) * image.at(x, y, c);

@@ -42,7 +42,8 @@ Image load_texture(const std::filesystem::path& file, ImageUse use);
 
 /// Loads slopes: an image of 2 channels, dh/ds and dh/dt per unit of texture coordinate, with t pointing up. Files of
 /// `maketx --bumpslopes` are recognised by their channels b1_dhds and b2_dhdt; their header says the unit of their
-/// slopes. Of other files the first two channels are read as `encoding` and `unit` say. Throws as load_texture does,
+/// slopes, and the means of squares and product that they bring are three channels more: ss, st, tt. Of other files the
+/// first two channels are read as `encoding` and `unit` say. Throws as load_texture does,
 /// and when slopes of metres over metres are asked of a file of `maketx --bumpslopes`, which has none.
 Image load_slopes(const std::filesystem::path& file, Encoding encoding, SlopeUnit unit);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "io/packed_normals.h"
@@ -91,8 +92,9 @@ Image unpacked_vectors(Image image, bool may_be_signed) {
 struct SlopeLayout {
     int s_channel = 0, t_channel = 1;
     float s_factor = 1, t_factor = 1;
-    bool packed = false;      ///< a slope is stored as (slope + 1) / 2, before these factors
-    bool bumpslopes = false;  ///< written by maketx --bumpslopes, with heights in channel 0
+    bool packed = false;                      ///< a slope is stored as (slope + 1) / 2, before these factors
+    bool bumpslopes = false;                  ///< written by maketx --bumpslopes, with heights in channel 0
+    std::array<int, 3> products{-1, -1, -1};  ///< channels of the means of dh/ds^2, dh/ds dh/dt, dh/dt^2; -1: none
 };
 
 SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUnit unit, const std::string& name) {
@@ -108,8 +110,11 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
             name));
     if (s < n && t < n) {  // t of these files points down, hence the minus
         const float scale = spec.get_float_attribute("uvslopes_scale");
-        return scale == 0 ? SlopeLayout{s, t, width, -height, false, true}
-                          : SlopeLayout{s, t, scale, -scale, false, true};
+        SlopeLayout at =
+            scale == 0 ? SlopeLayout{s, t, width, -height, false, true} : SlopeLayout{s, t, scale, -scale, false, true};
+        const std::array products{channel("b3_dhds2"), channel("b5_dh2dsdt"), channel("b4_dhdt2")};
+        if (std::ranges::all_of(products, [n](int c) { return c < n; })) at.products = products;
+        return at;
     }
     const bool alpha = n == 2 && spec.alpha_channel == 1;
     if (n < 2 || alpha || n == 6)
@@ -126,6 +131,24 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
     return layout;
 }
 
+/// A mean square is at least the square of the mean. Halves, which files may hold, round both.
+void check_products(const Image& read, const SlopeLayout& at, const std::string& name) {
+    constexpr float kRounding = 4e-3F, kSmallest = 2e-7F;
+    const auto check = [&](int x, int y, int mean, int square, const char* channel) {
+        const float slope = read.at(x, y, mean), found = read.at(x, y, square);
+        if (found >= slope * slope * (1 - kRounding) - kSmallest) return;
+        throw Error(fmt::format(
+            "{}: pixel ({}, {}) from the top left has {:.6g} in {}; that is the mean of the squares of slopes "
+            "whose mean is {:.6g}, so at least {:.6g}: have maketx --bumpslopes write the file anew",
+            name, x, read.height - 1 - y, found, channel, slope, slope * slope));
+    };
+    for (int y = 0; y < read.height; ++y)
+        for (int x = 0; x < read.width; ++x) {
+            check(x, y, at.s_channel, at.products[0], "b3_dhds2");
+            check(x, y, at.t_channel, at.products[2], "b4_dhdt2");
+        }
+}
+
 }  // namespace
 
 Image texture_of(const TexelSource& source, ImageUse use) {
@@ -140,7 +163,8 @@ Image texture_of(const TexelSource& source, ImageUse use) {
 
 Image slopes_of(const TexelSource& source, Encoding encoding, SlopeUnit unit) {
     SlopeLayout at = slope_layout(source.spec, encoding, unit, source.name);
-    const Image read = source.read(std::max(at.s_channel, at.t_channel) + 1);
+    const bool products = at.products[0] >= 0;
+    const Image read = source.read(std::max({at.s_channel, at.t_channel, std::ranges::max(at.products)}) + 1);
     // A file that maketx made from a normal map has -1 for all its heights, and its t points up.
     if (at.bumpslopes) {
         bool normals = true;
@@ -148,7 +172,8 @@ Image slopes_of(const TexelSource& source, Encoding encoding, SlopeUnit unit) {
             for (int x = 0; x < read.width; ++x) normals = normals && read.at(x, y, 0) == -1;
         if (normals) at.t_factor = -at.t_factor;
     }
-    Image slopes{read.width, read.height, 2, {}};
+    const std::array factors{at.s_factor * at.s_factor, at.s_factor * at.t_factor, at.t_factor * at.t_factor};
+    Image slopes{read.width, read.height, products ? 5 : 2, {}};
     for (int y = 0; y < read.height; ++y)
         for (int x = 0; x < read.width; ++x) {
             const auto slope = [&](int channel) {
@@ -157,8 +182,11 @@ Image slopes_of(const TexelSource& source, Encoding encoding, SlopeUnit unit) {
             };
             slopes.texels.push_back(at.s_factor * slope(at.s_channel));
             slopes.texels.push_back(at.t_factor * slope(at.t_channel));
+            for (std::size_t k = 0; products && k < 3; ++k)
+                slopes.texels.push_back(factors[k] * read.at(x, y, at.products[k]));
         }
     check_finite(slopes, source.name);
+    if (products) check_products(read, at, source.name);
     return slopes;
 }
 

@@ -105,10 +105,21 @@ Image slopes_of_normals(const Image& image, bool y_down) {
     return slopes;
 }
 
-/// Slopes of a map whose green channel points down: those along t change their sign.
+/// Slopes of a map whose green channel points down: those along t change their sign, and products of one of them.
 Image turned_down(Image slopes) {
-    for (std::size_t i = 1; i < slopes.texels.size(); i += 2) slopes.texels[i] = -slopes.texels[i];
+    const auto channels = static_cast<std::size_t>(slopes.channels);
+    for (std::size_t i = 0; i < slopes.texels.size(); i += channels)
+        for (std::size_t c = 1; c < channels; c += 2) slopes.texels[i + c] = -slopes.texels[i + c];
     return slopes;
+}
+
+/// Channels [first, end) of an image.
+Image channels_of(const Image& image, int first, int end) {
+    Image out{image.width, image.height, end - first, {}};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = first; c < end; ++c) out.texels.push_back(image.at(x, y, c));
+    return out;
 }
 
 /// Appends a level with its border of one texel. Three channels take four floats, so that a texel is one load.
@@ -141,6 +152,8 @@ Image finest_level(const Image& image, const PlannedTexture& planned) {
     if (use.content == Content::normal) level = slopes_of_normals(level, use.y_down);
     if (use.content == Content::slope && use.y_down) level = turned_down(std::move(level));
     if (slopes && use.content == Content::height) level = slopes_of_heights(level, use.wrap);
+    if (slopes && level.channels == 5)  // the file brings its own products
+        return planned.kind == TexelKind::moments ? channels_of(level, 2, 5) : channels_of(level, 0, 2);
     return planned.kind == TexelKind::moments ? products(level) : level;
 }
 

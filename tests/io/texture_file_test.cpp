@@ -82,6 +82,27 @@ TEST(TextureFile, BumpslopesAreKnownByTheirChannels) {
         }
 }
 
+TEST(TextureFile, BumpslopesBringTheirMeansOfProducts) {
+    TempFolder folder;
+    // Means: dh/ds .25, dh/dt -.5 with t down; squares .5 and .75, product -.25.
+    const float means[] = {3, 0.25f, -0.5f, 0.5f, 0.75f, -0.25f};
+    float square = means[3];
+    const auto texel = [&](int c, int, int) { return c == 3 ? square : means[c]; };
+    const auto spec = make_spec(8, 4, {"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"});
+    write_image(folder / "b.exr", {{spec, texel}});
+    const Image slopes = load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture);
+    ASSERT_EQ(slopes.channels, 5);
+    const float wanted[] = {0.25f * 8, 0.5f * 4, 0.5f * 8 * 8, 0.25f * 8 * 4, 0.75f * 4 * 4};
+    for (int c = 0; c < 5; ++c) EXPECT_FLOAT_EQ(slopes.at(3, 1, c), wanted[c]) << c;
+    square = 0.06f;
+    write_image(folder / "b.exr", {{spec, texel}});
+    expect_mentions(error_of([&] { load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture); }),
+                    {"b.exr: pixel (0, 3) from the top left has 0.06 in b3_dhds2", "at least 0.0625", "maketx"});
+    // A file without them has its slopes alone.
+    write_image(folder / "b.exr", {{make_spec(8, 4, {"b0_h", "b1_dhds", "b2_dhdt"}), texel}});
+    EXPECT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture).channels, 2);
+}
+
 TEST(TextureFile, SlopesOfTheWrongChannels) {
     TempFolder folder;
     write_exr(folder / "h.exr", 4, 4, {"Y"});

@@ -5,13 +5,7 @@
 namespace wrinkle::test {
 namespace {
 
-/// The angles between the normals of a run and those of the areas, and by how much the areas' tilt from the ground.
-Spread errors(const Pixels& got, const std::vector<Area>& areas) {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < areas.size(); ++i)
-        if (areas[i].whole) all.push_back(angle_degrees(vec_at(got, "normal", i), normal_of(areas[i].gradient)));
-    return Spread(all);
-}
+/// By how much the areas' normals tilt from the ground.
 Spread tilts(const std::vector<Area>& areas) {
     std::vector<double> all;
     for (const Area& area : areas)
@@ -68,14 +62,6 @@ INSTANTIATE_TEST_SUITE_P(Layers, AreaCases, testing::ValuesIn(area_cases()), [](
     std::ranges::replace(name, ' ', '_');
     return name;
 });
-
-/// Root of the sum of both variances, over all whole pixels.
-double sigma(const std::vector<Area>& areas) {
-    double sum = 0;
-    for (const Area& area : areas)
-        if (area.whole) sum += area.xx + area.yy;
-    return std::sqrt(sum);
-}
 
 TEST(Area, CovarianceIsThatOfTheSlopes) {
     for (const AreaCase& each : area_cases()) {

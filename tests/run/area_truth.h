@@ -41,4 +41,20 @@ inline std::vector<Area> brute_force(Scene scene) {
 
 inline V normal_of(V gradient) { return normalize(V{0, 0, 1} - gradient); }
 
+/// The angles between the normals of a run and those of the areas.
+inline Spread errors(const Pixels& got, const std::vector<Area>& areas) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+        if (areas[i].whole) all.push_back(angle_degrees(vec_at(got, "normal", i), normal_of(areas[i].gradient)));
+    return Spread(all);
+}
+
+/// Root of the sum of both variances, over all whole pixels.
+inline double sigma(const std::vector<Area>& areas) {
+    double sum = 0;
+    for (const Area& area : areas)
+        if (area.whole) sum += area.xx + area.yy;
+    return std::sqrt(sum);
+}
+
 }  // namespace wrinkle::test
