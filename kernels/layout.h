@@ -84,6 +84,8 @@ typedef struct {
 #define WR_VOLUME_BLOCKS 0  // three words: number of blocks of 8^3 cells along x, y, z
 #define WR_VOLUME_FIRST 3   // three words, signed: index of the first voxel of the first block
 #define WR_VOLUME_INDEX 6   // where in the texel buffer the blocks' offsets begin
+#define WR_VOLUME_LEVELS 7  // how many coarser levels there are; 0: none
+#define WR_VOLUME_COARSER 8 // row of the table where they begin; rows of their products follow, two a level
 
 // Columns of a block of pixels (surface/pixel_block.clh), whose rows are loaded by vload4. Host and kernels count the
 // blocks of a frame by it.

@@ -73,9 +73,9 @@ std::vector<VolumeReport> volumes_of(const Plan& plan) {
 void print_volumes(const std::vector<VolumeReport>& volumes) {
     if (!volumes.empty()) fmt::print("\nvolumes: blocks of 8 x 8 x 8 voxels, in the order of the layers\n");
     for (const VolumeReport& v : volumes)
-        fmt::print("  \"{}\" of {}: {} x {} x {} blocks, {} stored, {:.1f} MB on the device\n", v.info.grid,
-                   v.info.channels == 3 ? "vectors" : "values", v.blocks[0], v.blocks[1], v.blocks[2], v.stored,
-                   static_cast<double>(v.bytes) / 1e6);
+        fmt::print("  \"{}\" of {}: {} x {} x {} blocks, {} stored; with {} coarser levels {:.1f} MB on the device\n",
+                   v.info.grid, v.info.channels == 3 ? "vectors" : "values", v.blocks[0], v.blocks[1], v.blocks[2],
+                   v.stored, v.levels, static_cast<double>(v.bytes) / 1e6);
 }
 
 nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
@@ -85,6 +85,7 @@ nlohmann::json volumes_json(const std::vector<VolumeReport>& volumes) {
                        {"channels", v.info.channels},
                        {"blocks", v.blocks},
                        {"stored", v.stored},
+                       {"levels", v.levels},
                        {"bytes", v.bytes}});
     return all;
 }

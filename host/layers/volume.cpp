@@ -86,6 +86,62 @@ private:
     std::size_t first_ = 0;
 };
 
+/// Text that declares the volume `v`, and `lod` where samples are filtered.
+std::string volume_text(LayerText& at, const IndexMatrix& matrix, bool smooth) {
+    const bool filtered = at.layer.footprint;
+    const std::size_t number =
+        at.emitter.volume(std::get<VolumeLayer>(at.layer.bump), smooth ? TexelKind::volume_smooth : TexelKind::volume);
+    PlannedTexture& planned = at.emitter.plan.textures[number];  // other layers may want it otherwise
+    planned.levels |= filtered, planned.products |= filtered && at.tells_spread();
+    const std::string declared = fmt::format("        wr_volume v = wr_volume_at(texels, textures, {});\n", number);
+    if (!filtered) return declared;
+    at.section.reads.insert({"dp_dx", "dp_dy"});
+    at.section.operations += 30;
+    if (at.over_area()) at.prepared += declared;
+    // One point a pixel is the centre of its area, sampled as if areas were not walked at all.
+    const bool several = at.over_area() && at.emitter.scene.filter.taps > 1;
+    const std::string level =
+        fmt::format("{}(v, {},\n            {})", several ? "wr_volume_area_lod" : "wr_volume_lod",
+                    matrix.times("dp_dx", false), matrix.times("dp_dy", false));
+    return declared + fmt::format("        const wr_real lod = {};\n", at.once("wr_real", "lod", level));
+}
+
+/// Text that adds what a filtered sample has averaged away to the covariance.
+///   cells         how far the first cell of slopes lies from the voxel of that number
+///   slope         factor of the layer's slopes, beside mask and scale
+///   right, down   axes of the covariance, for slopes as they are sampled
+std::string spread_text(LayerText& at, const char* cells, const char* slope, const std::string& right,
+                        const std::string& down) {
+    if (!at.layer.footprint || !at.tells_spread()) return {};
+    at.section.operations += 90;
+    return fmt::format(
+        "        if (wr_any(lod > 0)) {{\n"
+        "        wr_real steep = m * {}{};\n"
+        "        wr_vec3 lost = wr_volume_spread(v, textures, fine, mean,\n"
+        "            wr_sub(q, wr_v3({}, {}, {})), lod,\n"
+        "            {},\n            {});\n"
+        "        finer = wr_fma(lost, steep * steep, finer);\n"
+        "        }}\n",
+        at.strength(), slope, cells, cells, cells, right, down);
+}
+
+constexpr const char *kBetweenVoxels = "(wr_real)(WR_R(0.5))", *kAroundVoxels = "(wr_real)(0)";
+
+/// Text that remaps `s`, and declares `steepness`, what that multiplies gradients by.
+std::string remap_text(LayerText& at, Remap remap) {
+    const std::size_t range = at.emitter.numbers(at.layer, "range", [](const Layer& layer, const auto&) {
+        const auto& range = std::get<VolumeLayer>(layer.bump).range;
+        return std::vector(range.begin(), range.end());
+    });
+    const char* shape = remap == Remap::ramp ? "ramp" : remap == Remap::smooth ? "smoothstep" : "wave";
+    const auto applied = fmt::format("wr_shape_{}(s, numbers[{}], numbers[{}])", shape, range, range + 1);
+    return fmt::format(
+        "        s.gradient = wr_v3((wr_real)(1), (wr_real)(0), (wr_real)(0));\n"
+        "        wr_real steepness = {}.gradient.x;\n"
+        "        s.gradient = wr_scale(mean, steepness);\n",
+        applied);
+}
+
 std::string emit(LayerText& at) {
     const auto& l = std::get<VolumeLayer>(at.layer.bump);
     const auto facts = at.emitter.available.volumes.find({l.file.string(), l.grid});
@@ -107,23 +163,33 @@ std::string emit(LayerText& at) {
     });
     at.section.reads.insert("p");
     at.section.operations += vectors ? kVector : smooth ? kSmooth : kLinear;
-    std::string text = fmt::format(
-        "        wr_volume v = wr_volume_at(texels, textures, {});\n"
-        "        wr_vec3 start = wr_v3(eye_places + {});  // the eye, in the grid's index space\n"
-        "        wr_vec3 q = {};\n",
-        at.emitter.volume(l, smooth ? TexelKind::volume_smooth : TexelKind::volume), 4 * origin,
-        matrix.times("p", false, "start"));
-    if (vectors) return text + at.volume("wr_volume_vector(v, q)");
-    text += fmt::format("        wr_field s = {}(v, q);\n", smooth ? "wr_volume_bspline" : "wr_volume_trilinear");
-    if (l.remap != Remap::none) {
-        const std::size_t range = at.emitter.numbers(at.layer, "range", [](const Layer& layer, const auto&) {
-            const auto& range = std::get<VolumeLayer>(layer.bump).range;
-            return std::vector(range.begin(), range.end());
-        });
-        const char* shape = l.remap == Remap::ramp ? "ramp" : l.remap == Remap::smooth ? "smoothstep" : "wave";
-        text += fmt::format("        s = wr_shape_{}(s, numbers[{}], numbers[{}]);\n", shape, range, range + 1);
+    std::string text = volume_text(at, matrix, smooth) +
+                       fmt::format(
+                           "        wr_vec3 start = wr_v3(eye_places + {});  // the eye, in the grid's index space\n"
+                           "        wr_vec3 q = {};\n",
+                           4 * origin, matrix.times("p", false, "start"));
+    const bool filtered = at.layer.footprint;
+    const char* where = filtered ? "if (wr_any(lod < 1)) " : "";
+    if (vectors) {
+        text += fmt::format(
+            "        wr_vec3 fine = wr_zero3();\n        {}fine = wr_volume_vector(v, q);\n        wr_vec3 mean = "
+            "fine;\n",
+            where);
+        if (filtered)
+            text += "        if (wr_any(lod > 0)) mean = wr_volume_filtered_vector(v, textures, fine, q, lod);\n";
+        return text + at.volume("mean") + spread_text(at, kBetweenVoxels, "", "right", "down");
     }
-    return text + at.volume(matrix.times("s.gradient", true));
+    text += fmt::format("        wr_field s = {{(wr_real)(0), wr_zero3()}};\n        {}s = {}(v, q);\n", where,
+                        smooth ? "wr_volume_bspline" : "wr_volume_trilinear");
+    if (filtered)
+        text += std::string("        wr_vec3 fine = s.gradient;\n") +
+                (smooth ? "        if (wr_any(lod > 0)) s = wr_volume_filtered_bspline(v, textures, s, q, lod);\n"
+                        : "        if (wr_any(lod > 0)) s = wr_volume_filtered_trilinear(v, textures, s, q, lod);\n");
+    const bool remapped = l.remap != Remap::none;
+    text += "        wr_vec3 mean = s.gradient;\n" + (remapped ? remap_text(at, l.remap) : "");
+    return text + at.volume(matrix.times("s.gradient", true)) +
+           spread_text(at, smooth ? kAroundVoxels : kBetweenVoxels, remapped ? " * steepness" : "",
+                       matrix.times("right", false), matrix.times("down", false));
 }
 
 }  // namespace

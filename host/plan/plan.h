@@ -105,6 +105,8 @@ struct PlannedTexture {
     std::array<double, 4> region{0, 0, 1, 1};  ///< of the image: s and t from, s and t to
     std::string layer{};                       ///< label of the first layer that uses it, for messages
     bool vectors = false;                      ///< that the kernel text takes the grid to hold
+    bool levels = false;                       ///< coarser levels of the grid, too
+    bool products = false;                     ///< and the products of the slopes that they average
 };
 
 /// A decal that is a layer of its own: every pixel is tested against it, without tiles.

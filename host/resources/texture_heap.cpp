@@ -199,7 +199,7 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
             const Volume volume = load_volume(texture.use.file, texture.grid);
             if ((volume.info.channels == 3) != texture.vectors)  // the file is another one than when it was planned
                 throw Error(fmt::format("{}: was replaced while it was read", texture.use.file.string()));
-            add_volume(heap, volume, texture.kind);
+            add_planned_volume(heap, volume, texture, planned.size());
         } else if (is_whole(texture)) {
             add_texture(heap, judged(load_bump(texture.use), texture), texture);
         } else {
@@ -218,6 +218,7 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
             throw Error(fmt::format("{}: {}", texture.layer, error.what()));
         }
     }
+    heap.table.insert(heap.table.end(), heap.further.begin(), heap.further.end());
     heap.texels.resize(heap.texels.size() + kTexelsAfterTheLast);
     return heap;
 }

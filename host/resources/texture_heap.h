@@ -14,7 +14,8 @@ namespace wrinkle {
 struct TextureHeap {
     std::vector<float> texels;
     std::vector<std::uint32_t> table;
-    std::vector<std::string> doubts{};  ///< of files that look as if they held something else, by the layer
+    std::vector<std::uint32_t> further{};  ///< rows that follow once all of the plan are there: levels of volumes
+    std::vector<std::string> doubts{};     ///< of files that look as if they held something else, by the layer
 };
 
 /// Floats after all texels: the last pair of a row may be read as four floats.

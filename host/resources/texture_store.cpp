@@ -10,7 +10,8 @@ namespace wrinkle {
 namespace {
 
 bool same_texels(const PlannedTexture& a, const PlannedTexture& b) {
-    return a.kind == b.kind && a.use == b.use && a.grid == b.grid && a.region == b.region;
+    return a.kind == b.kind && a.use == b.use && a.grid == b.grid && a.region == b.region && a.levels == b.levels &&
+           a.products == b.products;
 }
 
 template <class T>

@@ -11,6 +11,7 @@
 #include "base/limits.h"
 #include "base/names.h"
 #include "io/volume_file.h"
+#include "resources/volume_levels.h"
 #include "wrinkle/error.h"
 
 #include "layout.h"
@@ -229,27 +230,47 @@ private:
     std::map<std::array<float, 3>, std::size_t> constants_;
 };
 
-}  // namespace
-
-void add_volume(TextureHeap& heap, const Volume& volume, TexelKind kind) {
+/// Stores a volume; adds its row to a table.
+void store(TextureHeap& heap, std::vector<std::uint32_t>& table, const Volume& volume, TexelKind kind) {
     Blocks blocks(heap, volume, kind == TexelKind::volume_smooth ? Shape{10, 1} : Shape{9, 0});
-    const std::size_t words = heap.table.size();
-    heap.table.resize(words + WR_TEXTURE_WORDS);
+    const std::size_t words = table.size();
+    table.resize(words + WR_TEXTURE_WORDS);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const int first = (volume.first[axis] - Volume::ring) * Volume::edge;
-        heap.table[words + WR_VOLUME_BLOCKS + axis] = static_cast<std::uint32_t>(blocks.count(axis));
-        heap.table[words + WR_VOLUME_FIRST + axis] = static_cast<std::uint32_t>(first);
+        table[words + WR_VOLUME_BLOCKS + axis] = static_cast<std::uint32_t>(blocks.count(axis));
+        table[words + WR_VOLUME_FIRST + axis] = static_cast<std::uint32_t>(first);
     }
-    heap.table[words + WR_VOLUME_INDEX] = static_cast<std::uint32_t>(blocks.index());
+    table[words + WR_VOLUME_INDEX] = static_cast<std::uint32_t>(blocks.index());
     blocks.fill();
+}
+
+}  // namespace
+
+void add_volume(TextureHeap& heap, const Volume& volume, TexelKind kind) { store(heap, heap.table, volume, kind); }
+
+void add_planned_volume(TextureHeap& heap, const Volume& volume, const PlannedTexture& planned, std::size_t rows) {
+    store(heap, heap.table, volume, planned.kind);
+    if (!planned.levels) return;
+    const std::vector<Volume> levels = coarser_levels(volume);
+    std::uint32_t* words = &heap.table[heap.table.size() - WR_TEXTURE_WORDS];
+    words[WR_VOLUME_LEVELS] = static_cast<std::uint32_t>(levels.size());
+    words[WR_VOLUME_COARSER] = static_cast<std::uint32_t>(rows + heap.further.size() / WR_TEXTURE_WORDS);
+    for (const Volume& level : levels) store(heap, heap.further, level, planned.kind);
+    if (!planned.products) return;
+    const bool smooth = planned.kind == TexelKind::volume_smooth;
+    for (const SlopeProducts& products :
+         product_levels(volume, smooth ? VolumeFilter::smooth : VolumeFilter::linear, levels.size())) {
+        store(heap, heap.further, products.first, TexelKind::volume);
+        store(heap, heap.further, products.second, TexelKind::volume);
+    }
 }
 
 VolumeReport volume_report(const PlannedTexture& planned) {
     const Volume volume = load_volume(planned.use.file, planned.grid);
     TextureHeap heap;
-    add_volume(heap, volume, planned.kind);
+    add_planned_volume(heap, volume, planned, 1);
     const auto stored = static_cast<std::size_t>(std::ranges::count_if(volume.blocks, [](int at) { return at >= 0; }));
-    return {volume.info, volume.count, stored, heap.texels.size() * sizeof(float)};
+    return {volume.info, volume.count, stored, heap.texels.size() * sizeof(float), heap.table[WR_VOLUME_LEVELS]};
 }
 
 }  // namespace wrinkle

@@ -17,7 +17,7 @@
 #include "tests/reference/texcoord.h"
 #include "tests/reference/texture_metres.h"
 #include "tests/reference/user_kernel.h"
-#include "tests/reference/volume.h"
+#include "tests/reference/volume_levels.h"
 
 namespace wrinkle::reference {
 
@@ -181,21 +181,27 @@ LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextu
 }
 
 template <class T>
-LayerFunction<T> make_layer(const VolumeLayer& layer, bool, SceneTextures<T>&) {
-    const auto volume = std::make_shared<const Volume>(load_volume(layer.file, layer.grid));
-    const Mat4 m = multiply(volume->info.index_from_world, inverse(layer.transform));
-    const auto channel = [=](int c) -> Voxels<T> {
-        return [=](int x, int y, int z) { return T(volume->at(x, y, z, c)); };
-    };
+LayerFunction<T> make_layer(const VolumeLayer& layer, bool footprint, SceneTextures<T>&) {
+    const Volume volume = load_volume(layer.file, layer.grid);
+    const Mat4 m = multiply(volume.info.index_from_world, inverse(layer.transform));
+    const auto channels = std::make_shared<std::vector<VolumeMeans<T>>>();
+    for (int c = 0; c < volume.info.channels; ++c) channels->emplace_back(volume, c);
     return [=](const Surfel<T>& s) -> Contribution<T> {
         const auto row = [&](int i) { return Vec<T>{T(m[i][0]), T(m[i][1]), T(m[i][2])}; };
-        const auto index = [&](int i) { return dot(row(i), s.position) + T(m[i][3]); };
-        const Vec<T> q{index(0), index(1), index(2)};
-        if (volume->info.channels == 3)
-            return {{},
-                    {trilinear(channel(0), q).value, trilinear(channel(1), q).value, trilinear(channel(2), q).value}};
-        const NoiseValue<T> v =
-            layer.filter == VolumeFilter::smooth ? quadratic_spline(channel(0), q) : trilinear(channel(0), q);
+        const auto turned = [&](Vec<T> v) { return Vec<T>{dot(row(0), v), dot(row(1), v), dot(row(2), v)}; };
+        const Vec<T> q = turned(s.position) + Vec<T>{T(m[0][3]), T(m[1][3]), T(m[2][3])};
+        const T longest = std::max(length(turned(s.d.dp_dx)), length(turned(s.d.dp_dy)));
+        const T lod = footprint ? std::log2(std::max(longest, T(1))) : T(0);
+        const auto sampled = [&](std::size_t c) {
+            return filtered_voxels<T>((*channels)[c],
+                                      [&](const Voxels<T>& voxel, Vec<T> at) {
+                                          return layer.filter == VolumeFilter::smooth ? quadratic_spline(voxel, at)
+                                                                                      : trilinear(voxel, at);
+                                      },
+                                      q, lod);
+        };
+        if (channels->size() == 3) return {{}, {sampled(0).value, sampled(1).value, sampled(2).value}};
+        const NoiseValue<T> v = sampled(0);
         const Vec<T> dh_dp = row(0) * v.gradient.x + row(1) * v.gradient.y + row(2) * v.gradient.z;
         return {{}, dh_dp * remapped(layer.remap, v.value, T(layer.range[0]), T(layer.range[1])).y};
     };

@@ -28,6 +28,7 @@ Scene scene_of(VolumeLayer volume, double scale = 1) {
     scene.layers[0].name = "volume";
     scene.layers[0].bump = std::move(volume);
     scene.layers[0].scale = scale;
+    scene.layers[0].footprint = false;  // the formulas; tests/run/area_volumes_test.cpp has the filter
     scene.output = {.surface_gradient = true, .dp_dx = true, .dp_dy = true};
     return scene;
 }

@@ -1,0 +1,255 @@
+#include "resources/volume_levels.h"
+
+#include <OpenImageIO/parallel.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace wrinkle {
+
+namespace {
+
+constexpr int kEdge = Volume::edge;
+
+/// Voxels of the level that is `by` levels coarser, as grid without any blocks yet: the box covers that of `fine` grown
+/// by `more` voxels on each side.
+Volume coarse_box(const Volume& fine, int channels, int more) {
+    Volume coarse;
+    coarse.info = fine.info;
+    coarse.info.channels = channels;
+    std::size_t blocks = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int first = kEdge * fine.first[axis] - more, end = kEdge * (fine.first[axis] + fine.count[axis]) + more;
+        coarse.first[axis] = first >> 4;
+        coarse.count[axis] = fine.count[axis] > 0 ? ((end - 1) >> 4) + 1 - coarse.first[axis] : 0;
+        blocks *= static_cast<std::size_t>(coarse.count[axis]);
+    }
+    coarse.blocks.assign(blocks, -1);
+    return coarse;
+}
+
+/// The number of the constant that all blocks of `fine` have which touch voxels [first, end) of each axis, counted from
+/// a block's first voxel; nothing if there is another block among them.
+std::optional<std::int32_t> common_constant(const Volume& fine, const std::array<int, 3>& block, int first, int end) {
+    std::optional<std::int32_t> common;
+    for (int z = first >> 3; z <= (end - 1) >> 3; ++z)
+        for (int y = first >> 3; y <= (end - 1) >> 3; ++y)
+            for (int x = first >> 3; x <= (end - 1) >> 3; ++x) {
+                const auto place = fine.block(block[0] + x, block[1] + y, block[2] + z);
+                const std::int32_t number = place ? fine.blocks[*place] : -1;
+                if (number >= 0 || (common && *common != number)) return std::nullopt;
+                common = number;
+            }
+    return common;
+}
+
+/// Calls work(place in Volume::blocks, the first of the 2 x 2 x 2 finer blocks) for every block, several at once.
+template <class Work>
+void for_each_block(const Volume& coarse, const Work& work) {
+    const auto [wide, high, deep] = coarse.count;
+    OIIO::parallel_for(std::int64_t{0}, std::int64_t{wide} * high * deep, [&](std::int64_t i) {
+        const std::array<int, 3> at{static_cast<int>(i % wide), static_cast<int>(i / wide % high),
+                                    static_cast<int>(i / wide / high)};
+        std::array<int, 3> fine{};
+        for (std::size_t axis = 0; axis < 3; ++axis) fine[axis] = 2 * (coarse.first[axis] + at[axis]);
+        work(static_cast<std::size_t>(i), fine);
+    });
+}
+
+/// Numbers the blocks marked by a 0 and makes room for their voxels.
+void number_blocks(Volume& coarse) {
+    std::int32_t stored = 0;
+    for (std::int32_t& block : coarse.blocks)
+        if (block >= 0) block = stored++;
+    coarse.voxels.resize(static_cast<std::size_t>(stored) * static_cast<std::size_t>(coarse.info.channels) *
+                         Volume::block_voxels);
+}
+
+/// Where channel `c` of a stored block begins.
+float* channel_of(Volume& volume, std::size_t place, int c) {
+    const auto number = static_cast<std::size_t>(volume.blocks[place]);
+    return volume.voxels.data() +
+           (number * static_cast<std::size_t>(volume.info.channels) + static_cast<std::size_t>(c)) *
+               Volume::block_voxels;
+}
+
+/// The next coarser level: means of 2 x 2 x 2 voxels.
+Volume half(const Volume& fine) {
+    Volume coarse = coarse_box(fine, fine.info.channels, 0);
+    coarse.constants = fine.constants;
+    for_each_block(coarse, [&](std::size_t place, const std::array<int, 3>& block) {
+        coarse.blocks[place] = common_constant(fine, block, 0, 2 * kEdge).value_or(0);
+    });
+    number_blocks(coarse);
+    for_each_block(coarse, [&](std::size_t place, const std::array<int, 3>& block) {
+        if (coarse.blocks[place] < 0) return;
+        for (int c = 0; c < fine.info.channels; ++c) {
+            float* out = channel_of(coarse, place, c);
+            for (int z = 0; z < 2 * kEdge; z += 2)
+                for (int y = 0; y < 2 * kEdge; y += 2)
+                    for (int x = 0; x < 2 * kEdge; x += 2) {
+                        double sum = 0;
+                        for (int k = 0; k < 8; ++k)
+                            sum += static_cast<double>(fine.at(kEdge * block[0] + x + (k & 1),
+                                                               kEdge * block[1] + y + (k >> 1 & 1),
+                                                               kEdge * block[2] + z + (k >> 2), c));
+                        *out++ = static_cast<float>(sum / 8);
+                    }
+        }
+    });
+    return coarse;
+}
+
+/// Weights of three voxels in a row for values and slopes, at the two points of Gauss's quadrature in a cell.
+struct Basis {
+    int first;  ///< of the three, from the voxel the cell is numbered by
+    double value[2][3], slope[2][3];
+};
+
+/// Of linear interpolation; products of two slopes are then integrated exactly.
+Basis linear_basis() {
+    const double low = 0.5 - std::sqrt(1.0 / 12), high = 1 - low;
+    return {0, {{high, low, 0}, {low, high, 0}}, {{-1, 1, 0}, {-1, 1, 0}}};
+}
+
+/// Of the quadratic B-spline; off the integral by less than two in a hundred.
+Basis spline_basis() {
+    Basis basis{-1, {}, {}};
+    for (int k = 0; k < 2; ++k) {
+        const double t = (k == 0 ? -1 : 1) * std::sqrt(1.0 / 12), before = 0.5 - t, after = 0.5 + t;
+        const double value[] = {before * before / 2, 0.75 - t * t, after * after / 2};
+        const double slope[] = {-before, -2 * t, after};
+        std::copy_n(value, 3, basis.value[k]), std::copy_n(slope, 3, basis.slope[k]);
+    }
+    return basis;
+}
+
+using Voxels27 = double[3][3][3];  // z, y, x
+
+/// The sum of voxels under weights along each axis.
+double contract(const Voxels27& v, const double (&x)[3], const double (&y)[3], const double (&z)[3]) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j) sum += z[k] * y[j] * (x[0] * v[k][j][0] + x[1] * v[k][j][1] + x[2] * v[k][j][2]);
+    return sum;
+}
+
+/// Adds the products of the slopes of a cell: xx, xy, xz, yy, yz, zz.
+void add_products(const Basis& basis, const Voxels27* channels, bool vectors, double (&sums)[6]) {
+    for (int k = 0; k < 8; ++k) {
+        const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
+        double g[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const Voxels27& v = channels[vectors ? axis : 0];
+            g[axis] = contract(v, !vectors && axis == 0 ? basis.slope[i] : basis.value[i],
+                               !vectors && axis == 1 ? basis.slope[j] : basis.value[j],
+                               !vectors && axis == 2 ? basis.slope[l] : basis.value[l]);
+        }
+        const double products[] = {g[0] * g[0], g[0] * g[1], g[0] * g[2], g[1] * g[1], g[1] * g[2], g[2] * g[2]};
+        for (int p = 0; p < 6; ++p) sums[p] += products[p] / 8;
+    }
+}
+
+/// A block of the grid with the voxels that cells of a block of the next level reach, as numbers.
+class Surroundings {
+public:
+    Surroundings(const Volume& fine, const std::array<int, 3>& block, const Basis& basis) {
+        for (int c = 0; c < fine.info.channels; ++c)
+            for (int z = 0; z < kAcross; ++z)
+                for (int y = 0; y < kAcross; ++y)
+                    for (int x = 0; x < kAcross; ++x)
+                        voxels_.push_back(fine.at(kEdge * block[0] + x + basis.first,
+                                                  kEdge * block[1] + y + basis.first,
+                                                  kEdge * block[2] + z + basis.first, c));
+    }
+
+    void cell(int c, int x, int y, int z, Voxels27& out) const {
+        for (int k = 0; k < 3; ++k)
+            for (int j = 0; j < 3; ++j)
+                for (int i = 0; i < 3; ++i)
+                    out[k][j][i] = static_cast<double>(
+                        voxels_[static_cast<std::size_t>(((c * kAcross + z + k) * kAcross + y + j) * kAcross + x + i)]);
+    }
+
+private:
+    static constexpr int kAcross = 2 * kEdge + 2;
+    std::vector<float> voxels_;
+};
+
+/// The products of constant `number` of a grid: 0 unless it holds vectors.
+std::array<double, 6> products_of_constant(const Volume& fine, std::size_t number) {
+    if (fine.info.channels == 1) return {};
+    const float* v = fine.constants.data() + 3 * number;
+    const double x = v[0], y = v[1], z = v[2];
+    return {x * x, x * y, x * z, y * y, y * z, z * z};
+}
+
+/// The products of the first coarser level.
+SlopeProducts first_products(const Volume& fine, const Basis& basis) {
+    SlopeProducts out{coarse_box(fine, 3, 1), {}};
+    Volume &first = out.first, &second = out.second;
+    first.constants.clear();
+    second.constants.clear();
+    for (std::size_t i = 0; i < fine.constants.size() / 3; ++i) {
+        const std::array<double, 6> p = products_of_constant(fine, i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            first.constants.push_back(static_cast<float>(p[k]));
+            second.constants.push_back(static_cast<float>(p[k + 3]));
+        }
+    }
+    for_each_block(first, [&](std::size_t place, const std::array<int, 3>& block) {
+        first.blocks[place] = common_constant(fine, block, basis.first, 2 * kEdge + 2 + basis.first).value_or(0);
+    });
+    number_blocks(first);
+    second.info = first.info, second.first = first.first, second.count = first.count, second.blocks = first.blocks;
+    second.voxels.resize(first.voxels.size());
+    const bool vectors = fine.info.channels == 3;
+    for_each_block(first, [&](std::size_t place, const std::array<int, 3>& block) {
+        if (first.blocks[place] < 0) return;
+        const Surroundings around(fine, block, basis);
+        for (int voxel = 0; voxel < static_cast<int>(Volume::block_voxels); ++voxel) {
+            double sums[6] = {};
+            for (int k = 0; k < 8; ++k) {
+                Voxels27 channels[3];
+                for (int c = 0; c < fine.info.channels; ++c)
+                    around.cell(c, 2 * (voxel & 7) + (k & 1), 2 * (voxel >> 3 & 7) + (k >> 1 & 1),
+                                2 * (voxel >> 6) + (k >> 2), channels[c]);
+                add_products(basis, channels, vectors, sums);
+            }
+            for (int p = 0; p < 6; ++p)
+                channel_of(p < 3 ? first : second, place, p % 3)[voxel] = static_cast<float>(sums[p] / 8);
+        }
+    });
+    return out;
+}
+
+/// Whether the grid's box is more than two voxels wide on a level.
+bool is_wide(const Volume& volume, int level) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int first = kEdge * volume.first[axis], last = first + kEdge * volume.count[axis] - 1;
+        if ((last >> level) - (first >> level) > 1) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::vector<Volume> coarser_levels(const Volume& volume) {
+    std::vector<Volume> levels;
+    for (int level = 0; is_wide(volume, level); ++level) levels.push_back(half(level == 0 ? volume : levels.back()));
+    return levels;
+}
+
+std::vector<SlopeProducts> product_levels(const Volume& volume, VolumeFilter filter, std::size_t levels) {
+    std::vector<SlopeProducts> all;
+    for (std::size_t level = 0; level < levels; ++level)
+        all.push_back(level == 0
+                          ? first_products(volume, filter == VolumeFilter::smooth ? spline_basis() : linear_basis())
+                          : SlopeProducts{half(all.back().first), half(all.back().second)});
+    return all;
+}
+
+}  // namespace wrinkle
