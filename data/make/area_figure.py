@@ -9,77 +9,22 @@ far from that truth the others are, in dB of the linear picture. Run it by the P
     build/venv/bin/python data/make/area_figure.py
 """
 
-import pathlib
-
 import matplotlib
 import numpy as np
+from area_views import View, ball, data, ground, scene, truth
 
 import wrinkle
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-data = pathlib.Path(__file__).parents[1]
 POINTS = 32
-
-
-class View:
-    """A frame whose pixels are seen through one of its points, (0.5, 0.5) being the middle."""
-
-    def __init__(self, width, height, surface, **camera):
-        self.width, self.height, self.surface = width, height, surface
-        self.camera = wrinkle.Camera.look_at(up=(0, 0, 1), aspect=width / height, **camera)
-        self.eye = np.array(camera["eye"], float)
-
-    def gbuffer(self, x=0.5, y=0.5):
-        view, proj = np.array(self.camera.view), np.array(self.camera.proj)
-        proj[0, 2] += (2 * x - 1) / self.width  # the picture, moved by part of a pixel
-        proj[1, 2] -= (2 * y - 1) / self.height
-        across = (np.arange(self.width) + 0.5) / self.width * 2 - 1
-        down = 1 - (np.arange(self.height) + 0.5) / self.height * 2
-        across, down = np.meshgrid(across, down)
-        rays = np.stack([(across + proj[0, 2]) / proj[0, 0], (down + proj[1, 2]) / proj[1, 1],
-                         np.full_like(across, -1)], -1) @ view[:3, :3]
-        depth, normal = self.surface(self.eye, rays)
-        planes = np.ascontiguousarray(np.moveaxis(normal, -1, 0).astype(np.float32))
-        return wrinkle.GBuffer(camera=wrinkle.Camera(view.tolist(), proj.tolist()), depth=depth,
-                               normal=np.moveaxis(planes, 0, -1))
-
-
-def ground(eye, rays):
-    falling = rays[..., 2]
-    seen = falling < -0.002
-    depth = np.where(seen, -eye[2] / np.where(seen, falling, -1), np.inf)
-    return depth, np.broadcast_to([0.0, 0, 1], rays.shape)
-
-
-def ball(eye, rays):
-    a, b, c = (rays**2).sum(-1), rays @ eye, eye @ eye - 1
-    root = b * b - a * c
-    seen = root > 0
-    depth = np.where(seen, (-b - np.sqrt(np.where(seen, root, 0))) / a, np.inf)
-    return depth, np.where(seen[..., None], eye + np.where(seen, depth, 0)[..., None] * rays, 0)
-
-
-def scene(taps, layer, roughness, sun, **keys):
-    return wrinkle.Scene(layers=[layer.replace(**keys)], lights=[wrinkle.Light("sun", direction=sun, intensity=2.5)],
-                         lighting={"relight": "lit", "roughness": roughness, "ambient": [0.05] * 3},
-                         output={"surface_gradient": True}, filter={"taps": taps}, folder=data / "textures")
 
 
 def evaluated(view, *what):
     """By one point, by sixteen, and the truth; and the pixels that the surface covers whole."""
-    frame = view.gbuffer()
-    out = [wrinkle.evaluate(scene(taps, *what), frame) for taps in (1, 16)]
-    points = wrinkle.Pass(scene(1, *what, footprint=False), frame)
-    truth, covered = {}, True
-    for y in range(POINTS):
-        for x in range(POINTS):
-            point = view.gbuffer((x + 0.5) / POINTS, (y + 0.5) / POINTS)
-            covered &= np.isfinite(point.plane("depth"))
-            for name, plane in points.run(point).items():
-                truth[name] = truth.get(name, 0) + plane.astype(np.float64) / POINTS**2
-    return [*out, truth], covered
+    mean, covered = truth(view, what, POINTS)
+    return [*(wrinkle.evaluate(scene(*what, taps=taps), view.gbuffer()) for taps in (1, 16)), mean], covered
 
 
 def decibels(picture, truth, where):
