@@ -49,7 +49,7 @@ std::optional<std::int32_t> common_constant(const Volume& fine, const std::array
 /// Calls work(place in Volume::blocks, the first of the 2 x 2 x 2 finer blocks) for every block, several at once.
 template <class Work>
 void for_each_block(const Volume& coarse, const Work& work) {
-    const auto [wide, high, deep] = coarse.count;
+    const int wide = coarse.count[0], high = coarse.count[1], deep = coarse.count[2];
     OIIO::parallel_for(std::int64_t{0}, std::int64_t{wide} * high * deep, [&](std::int64_t i) {
         const std::array<int, 3> at{static_cast<int>(i % wide), static_cast<int>(i / wide % high),
                                     static_cast<int>(i / wide / high)};
