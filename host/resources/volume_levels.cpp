@@ -3,9 +3,7 @@
 #include <OpenImageIO/parallel.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace wrinkle {
@@ -103,81 +101,111 @@ Volume half(const Volume& fine) {
     return coarse;
 }
 
-/// Weights of three voxels in a row for values and slopes, at the two points of Gauss's quadrature in a cell.
+/// Weights of voxels in a row for values and slopes, at the two points of Gauss's quadrature in a cell.
+template <int count>
 struct Basis {
-    int first;  ///< of the three, from the voxel the cell is numbered by
-    double value[2][3], slope[2][3];
+    int first;  ///< of the voxels, from the one that the cell is numbered by
+    float value[2][count], slope[2][count];
 };
 
 /// Of linear interpolation; products of two slopes are then integrated exactly.
-Basis linear_basis() {
-    const double low = 0.5 - std::sqrt(1.0 / 12), high = 1 - low;
-    return {0, {{high, low, 0}, {low, high, 0}}, {{-1, 1, 0}, {-1, 1, 0}}};
+Basis<2> linear_basis() {
+    const auto low = static_cast<float>(0.5 - std::sqrt(1.0 / 12));
+    return {0, {{1 - low, low}, {low, 1 - low}}, {{-1, 1}, {-1, 1}}};
 }
 
 /// Of the quadratic B-spline; off the integral by less than two in a hundred.
-Basis spline_basis() {
-    Basis basis{-1, {}, {}};
+Basis<3> spline_basis() {
+    Basis<3> basis{-1, {}, {}};
     for (int k = 0; k < 2; ++k) {
-        const double t = (k == 0 ? -1 : 1) * std::sqrt(1.0 / 12), before = 0.5 - t, after = 0.5 + t;
-        const double value[] = {before * before / 2, 0.75 - t * t, after * after / 2};
-        const double slope[] = {-before, -2 * t, after};
+        const auto t = static_cast<float>((k == 0 ? -1 : 1) * std::sqrt(1.0 / 12));
+        const float before = 0.5F - t, after = 0.5F + t;
+        const float value[] = {before * before / 2, 0.75F - t * t, after * after / 2};
+        const float slope[] = {-before, -2 * t, after};
         std::copy_n(value, 3, basis.value[k]), std::copy_n(slope, 3, basis.slope[k]);
     }
     return basis;
 }
 
-using Voxels27 = double[3][3][3];  // z, y, x
-
-/// The sum of voxels under weights along each axis.
-double contract(const Voxels27& v, const double (&x)[3], const double (&y)[3], const double (&z)[3]) {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k)
-        for (int j = 0; j < 3; ++j) sum += z[k] * y[j] * (x[0] * v[k][j][0] + x[1] * v[k][j][1] + x[2] * v[k][j][2]);
+template <int count>
+float weighed(const float (&weights)[count], const float (&numbers)[count]) {
+    float sum = 0;
+    for (int k = 0; k < count; ++k) sum += weights[k] * numbers[k];
     return sum;
 }
 
-/// Adds the products of the slopes of a cell: xx, xy, xz, yy, yz, zz.
-void add_products(const Basis& basis, const Voxels27* channels, bool vectors, double (&sums)[6]) {
-    for (int k = 0; k < 8; ++k) {
-        const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
-        double g[3];
-        for (int axis = 0; axis < 3; ++axis) {
-            const Voxels27& v = channels[vectors ? axis : 0];
-            g[axis] = contract(v, !vectors && axis == 0 ? basis.slope[i] : basis.value[i],
-                               !vectors && axis == 1 ? basis.slope[j] : basis.value[j],
-                               !vectors && axis == 2 ? basis.slope[l] : basis.value[l]);
-        }
-        const double products[] = {g[0] * g[0], g[0] * g[1], g[0] * g[2], g[1] * g[1], g[1] * g[2], g[2] * g[2]};
-        for (int p = 0; p < 6; ++p) sums[p] += products[p] / 8;
-    }
-}
-
-/// A block of the grid with the voxels that cells of a block of the next level reach, as numbers.
+/// The voxels that cells of a block of the next level reach, one row after another.
 class Surroundings {
 public:
-    Surroundings(const Volume& fine, const std::array<int, 3>& block, const Basis& basis) {
+    static constexpr int across = 2 * kEdge + 2;
+
+    Surroundings(const Volume& fine, const std::array<int, 3>& block, int first) {
         for (int c = 0; c < fine.info.channels; ++c)
-            for (int z = 0; z < kAcross; ++z)
-                for (int y = 0; y < kAcross; ++y)
-                    for (int x = 0; x < kAcross; ++x)
-                        voxels_.push_back(fine.at(kEdge * block[0] + x + basis.first,
-                                                  kEdge * block[1] + y + basis.first,
-                                                  kEdge * block[2] + z + basis.first, c));
+            for (int z = first; z < across + first; ++z)
+                for (int y = first; y < across + first; ++y)
+                    for (int x = first; x < across + first; ++x)
+                        voxels_.push_back(fine.at(kEdge * block[0] + x, kEdge * block[1] + y, kEdge * block[2] + z, c));
     }
 
-    void cell(int c, int x, int y, int z, Voxels27& out) const {
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j)
-                for (int i = 0; i < 3; ++i)
-                    out[k][j][i] = static_cast<double>(
-                        voxels_[static_cast<std::size_t>(((c * kAcross + z + k) * kAcross + y + j) * kAcross + x + i)]);
+    /// The first voxel of a cell.
+    const float* cell(int c, int x, int y, int z) const {
+        return voxels_.data() + ((c * across + z) * across + y) * across + x;
     }
 
 private:
-    static constexpr int kAcross = 2 * kEdge + 2;
     std::vector<float> voxels_;
 };
+
+/// Values of a cell at one of the two points along x, with the slopes there: a number for each row of voxels.
+template <int count>
+struct Rows {
+    float value[count][count], slope[count][count];  // z, y
+
+    Rows(const Basis<count>& basis, const float* cell, int point) {
+        for (int z = 0; z < count; ++z)
+            for (int y = 0; y < count; ++y) {
+                float voxels[count];
+                std::copy_n(cell + (z * Surroundings::across + y) * Surroundings::across, count, voxels);
+                value[z][y] = weighed(basis.value[point], voxels);
+                slope[z][y] = weighed(basis.slope[point], voxels);
+            }
+    }
+};
+
+/// Calls use(gradient) for the eight points of the quadrature in a cell of values.
+template <int count, class Use>
+void for_slopes(const Basis<count>& basis, const float* cell, const Use& use) {
+    for (int i = 0; i < 2; ++i) {
+        const Rows<count> rows(basis, cell, i);
+        for (int j = 0; j < 2; ++j) {
+            float value[count], along_x[count], along_y[count];
+            for (int z = 0; z < count; ++z) {
+                value[z] = weighed(basis.value[j], rows.value[z]);
+                along_x[z] = weighed(basis.value[j], rows.slope[z]);
+                along_y[z] = weighed(basis.slope[j], rows.value[z]);
+            }
+            for (int k = 0; k < 2; ++k)
+                use(std::array{weighed(basis.value[k], along_x), weighed(basis.value[k], along_y),
+                               weighed(basis.slope[k], value)});
+        }
+    }
+}
+
+/// The same in a cell of vectors, which are slopes.
+template <int count, class Use>
+void for_vectors(const Basis<count>& basis, const std::array<const float*, 3>& cell, const Use& use) {
+    for (int i = 0; i < 2; ++i) {
+        const Rows<count> rows[] = {{basis, cell[0], i}, {basis, cell[1], i}, {basis, cell[2], i}};
+        for (int j = 0; j < 2; ++j)
+            for (int k = 0; k < 2; ++k) {
+                std::array<float, 3> vector{};
+                for (std::size_t c = 0; c < 3; ++c)
+                    for (int z = 0; z < count; ++z)
+                        vector[c] += basis.value[k][z] * weighed(basis.value[j], rows[c].value[z]);
+                use(vector);
+            }
+    }
+}
 
 /// The products of constant `number` of a grid: 0 unless it holds vectors.
 std::array<double, 6> products_of_constant(const Volume& fine, std::size_t number) {
@@ -187,8 +215,29 @@ std::array<double, 6> products_of_constant(const Volume& fine, std::size_t numbe
     return {x * x, x * y, x * z, y * y, y * z, z * z};
 }
 
+/// The means of products over the 2 x 2 x 2 cells of a voxel of the first coarser level: xx, xy, xz, yy, yz, zz.
+template <int count>
+std::array<float, 6> mean_products(const Basis<count>& basis, const Surroundings& around, bool vectors, int voxel) {
+    std::array<float, 6> sums{};
+    const auto add = [&](const std::array<float, 3>& g) {
+        sums[0] += g[0] * g[0], sums[1] += g[0] * g[1], sums[2] += g[0] * g[2];
+        sums[3] += g[1] * g[1], sums[4] += g[1] * g[2], sums[5] += g[2] * g[2];
+    };
+    for (int k = 0; k < 8; ++k) {
+        const int x = 2 * (voxel & 7) + (k & 1), y = 2 * (voxel >> 3 & 7) + (k >> 1 & 1),
+                  z = 2 * (voxel >> 6) + (k >> 2);
+        if (vectors)
+            for_vectors(basis, {around.cell(0, x, y, z), around.cell(1, x, y, z), around.cell(2, x, y, z)}, add);
+        else
+            for_slopes(basis, around.cell(0, x, y, z), add);
+    }
+    for (float& sum : sums) sum /= 64;
+    return sums;
+}
+
 /// The products of the first coarser level.
-SlopeProducts first_products(const Volume& fine, const Basis& basis) {
+template <int count>
+SlopeProducts first_products(const Volume& fine, const Basis<count>& basis) {
     SlopeProducts out{coarse_box(fine, 3, 1), {}};
     Volume &first = out.first, &second = out.second;
     first.constants.clear();
@@ -201,7 +250,7 @@ SlopeProducts first_products(const Volume& fine, const Basis& basis) {
         }
     }
     for_each_block(first, [&](std::size_t place, const std::array<int, 3>& block) {
-        first.blocks[place] = common_constant(fine, block, basis.first, 2 * kEdge + 2 + basis.first).value_or(0);
+        first.blocks[place] = common_constant(fine, block, basis.first, Surroundings::across + basis.first).value_or(0);
     });
     number_blocks(first);
     second.info = first.info, second.first = first.first, second.count = first.count, second.blocks = first.blocks;
@@ -209,18 +258,11 @@ SlopeProducts first_products(const Volume& fine, const Basis& basis) {
     const bool vectors = fine.info.channels == 3;
     for_each_block(first, [&](std::size_t place, const std::array<int, 3>& block) {
         if (first.blocks[place] < 0) return;
-        const Surroundings around(fine, block, basis);
+        const Surroundings around(fine, block, basis.first);
         for (int voxel = 0; voxel < static_cast<int>(Volume::block_voxels); ++voxel) {
-            double sums[6] = {};
-            for (int k = 0; k < 8; ++k) {
-                Voxels27 channels[3];
-                for (int c = 0; c < fine.info.channels; ++c)
-                    around.cell(c, 2 * (voxel & 7) + (k & 1), 2 * (voxel >> 3 & 7) + (k >> 1 & 1),
-                                2 * (voxel >> 6) + (k >> 2), channels[c]);
-                add_products(basis, channels, vectors, sums);
-            }
+            const std::array<float, 6> products = mean_products(basis, around, vectors, voxel);
             for (int p = 0; p < 6; ++p)
-                channel_of(p < 3 ? first : second, place, p % 3)[voxel] = static_cast<float>(sums[p] / 8);
+                channel_of(p < 3 ? first : second, place, p % 3)[voxel] = products[static_cast<std::size_t>(p)];
         }
     });
     return out;
@@ -246,9 +288,9 @@ std::vector<Volume> coarser_levels(const Volume& volume) {
 std::vector<SlopeProducts> product_levels(const Volume& volume, VolumeFilter filter, std::size_t levels) {
     std::vector<SlopeProducts> all;
     for (std::size_t level = 0; level < levels; ++level)
-        all.push_back(level == 0
-                          ? first_products(volume, filter == VolumeFilter::smooth ? spline_basis() : linear_basis())
-                          : SlopeProducts{half(all.back().first), half(all.back().second)});
+        all.push_back(level > 0                        ? SlopeProducts{half(all.back().first), half(all.back().second)}
+                      : filter == VolumeFilter::smooth ? first_products(volume, spline_basis())
+                                                       : first_products(volume, linear_basis()));
     return all;
 }
 

@@ -101,9 +101,9 @@ void expect_products(const Volume& volume, VolumeFilter filter, double tolerance
     });
 }
 
-TEST(VolumeLevels, HoldTheProductsOfTrilinearSlopes) { expect_products(mixed(1), VolumeFilter::linear, 1e-5); }
+TEST(VolumeLevels, HoldTheProductsOfTrilinearSlopes) { expect_products(mixed(1), VolumeFilter::linear, 2e-5); }
 TEST(VolumeLevels, HoldTheProductsOfSmoothSlopes) { expect_products(mixed(1), VolumeFilter::smooth, 2e-2); }
-TEST(VolumeLevels, HoldTheProductsOfVectors) { expect_products(mixed(3), VolumeFilter::linear, 1e-5); }
+TEST(VolumeLevels, HoldTheProductsOfVectors) { expect_products(mixed(3), VolumeFilter::linear, 2e-5); }
 
 TEST(VolumeLevels, OfNothingAreNone) {
     Volume empty;
