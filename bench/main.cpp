@@ -14,6 +14,7 @@
 #include "contests.h"
 #include "decals.h"
 #include "functions.h"
+#include "lights.h"
 #include "memory.h"
 #include "report.h"
 #include "scenes.h"
@@ -27,8 +28,8 @@ namespace {
 using namespace wrinkle;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> all_parts{"memory",   "functions", "demo",     "scenes", "decals", "volume",
-                                         "variants", "storage",   "ablation", "bars",   "sizes",  "area"};
+const std::vector<std::string> all_parts{"memory",  "functions", "demo", "scenes", "decals", "volume", "variants",
+                                         "storage", "ablation",  "bars", "sizes",  "area",   "lights"};
 const std::vector<std::string> quick_parts{"memory", "functions", "demo", "scenes", "storage"};
 
 struct Arguments {
@@ -111,6 +112,7 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
         bench::measure_files(size, run);
     }
     if (wanted("decals")) bench::measure_decals(device, size, a.quick, run);
+    if (wanted("lights")) bench::measure_lights(device, size, a.quick, run);
     if (wanted("volume")) bench::measure_volumes(device, a.quick ? 64 : 256, run);
     if (wanted("sizes"))
         bench::measure_sizes(device, demo, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);

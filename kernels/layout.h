@@ -60,6 +60,7 @@ typedef struct {
     WR_SCALAR cos_inner, cos_outer; // of a spot: cosine of the angle up to which light is full, and from which none
     // Numbers of the pictures that show what of this light is diffuse, and what is specular, from 1 on; 0: none does
     WR_SCALAR diffuse, specular;
+    WR_SCALAR fade;                 // 1 / range^2, where it has faded away; 0: it reaches everywhere
 } wr_light;
 
 // Lighting of a frame.
@@ -91,7 +92,7 @@ typedef struct {
 // blocks of a frame by it.
 #define WR_BLOCK_WIDTH 4
 
-// Bins of decals: pixels of a tile; 4 x 4 tiles are a block, 4 x 4 blocks a super block.
+// Bins of decals and lights: pixels of a tile; 4 x 4 tiles are a block, 4 x 4 blocks a super block.
 #define WR_TILE_WIDTH_LOG2 4
 #define WR_TILE_HEIGHT_LOG2 3
 #define WR_TILE_WIDTH (1 << WR_TILE_WIDTH_LOG2)

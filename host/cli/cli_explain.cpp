@@ -51,13 +51,13 @@ void warn_of_camera(const Scene& scene, const GBufferReader& reader, const Frame
     } catch (const Error& error) { fmt::print(stderr, "wrinkle: warning: {}\n", error.what()); }
 }
 
-void print_bins(const Plan& plan, const BinReport& bins) {
-    fmt::print("\ntables of decals: {} rows, {:.1f} MB of tables, bounds and room for lists on the device\n",
-               plan.projectors, static_cast<double>(bins.bytes) / 1e6);
+void print_bins(const char* what, const BinReport& bins) {
+    fmt::print("\ntables of {}: {} rows, {:.1f} MB of tables, bounds and room for lists on the device\n", what,
+               bins.rows, static_cast<double>(bins.bytes) / 1e6);
     fmt::print("  bins: tiles of {0} x {1} pixels, listed from the top down: all, {2} x {3}, {4} x {5}, {0} x {1}\n",
                WR_TILE_WIDTH, WR_TILE_HEIGHT, WR_SUPER_WIDTH, WR_SUPER_HEIGHT, 4 * WR_TILE_WIDTH, 4 * WR_TILE_HEIGHT);
-    fmt::print("  lists of this frame: {} of {} tiles have decals; {:.1f} a tile that has any, at most {}; {} bytes\n",
-               bins.touched, bins.tiles, static_cast<double>(bins.entries) / std::max<double>(bins.touched, 1),
+    fmt::print("  lists of this frame: {} of {} tiles have {}; {:.1f} a tile that has any, at most {}; {} bytes\n",
+               bins.touched, bins.tiles, what, static_cast<double>(bins.entries) / std::max<double>(bins.touched, 1),
                bins.longest, sizeof(std::uint32_t) * bins.entries);
     if (bins.inherited > 0) fmt::print("  {} tiles share a larger tile's list, for want of room\n", bins.inherited);
 }
@@ -109,8 +109,8 @@ PlanOptions options_of(const std::optional<Budget>& budget) {
 /// What a device is needed for; none is opened for the rest.
 struct OnDevice {
     std::optional<Device> device;
-    std::optional<Budget> budget;   ///< the scene's, if it has one
-    std::optional<BinReport> bins;  ///< the lists of the frame's tiles, if the scene has tables of decals
+    std::optional<Budget> budget;  ///< the scene's, if it has one
+    FrameBins bins;                ///< the lists of the frame's tiles, if the scene has tables of decals or lights
 };
 
 std::string flags_of(const Device& device, const std::optional<Budget>& budget) {
@@ -124,13 +124,15 @@ nlohmann::json device_json(const OnDevice& on) {
     return {{"name", info.name}, {"lanes", info.lanes}, {"flags", flags_of(*on.device, on.budget)}};
 }
 
+nlohmann::json bins_json(const std::optional<BinReport>& bins) {
+    if (!bins) return {};
+    return {{"rows", bins->rows},          {"bytes", bins->bytes},     {"tiles", bins->tiles},
+            {"touched", bins->touched},    {"entries", bins->entries}, {"longest", bins->longest},
+            {"inherited", bins->inherited}};
+}
+
 void print_json(const Plan& plan, double operations, const OnDevice& on, const std::vector<VolumeReport>& volumes) {
     const auto& [device, budget, bins] = on;
-    nlohmann::json lists;
-    if (bins)
-        lists = {{"rows", plan.projectors},     {"bytes", bins->bytes},     {"tiles", bins->tiles},
-                 {"touched", bins->touched},    {"entries", bins->entries}, {"longest", bins->longest},
-                 {"inherited", bins->inherited}};
     nlohmann::json sections = nlohmann::json::array();
     for (const SectionSummary& section : plan.sections)
         sections.push_back({{"stage", section.stage},
@@ -143,7 +145,8 @@ void print_json(const Plan& plan, double operations, const OnDevice& on, const s
                                                 {"bytes_per_pixel", plan.bytes},
                                                 {"operations_per_pixel", operations},
                                                 {"sections", sections},
-                                                {"bins", lists},
+                                                {"bins", bins_json(bins.decals)},
+                                                {"light_bins", bins_json(bins.lights)},
                                                 {"volumes", volumes_json(volumes)},
                                                 {"budget", budget ? choice_json(*budget) : nlohmann::json()},
                                                 {"source", plan.source}}));
@@ -168,7 +171,7 @@ void explain(const ExplainArguments& arguments) {
     if (!arguments.device.empty() || arguments.lanes != 0) open();
     if (scene.budget.max_error) on.budget.emplace(scene, camera_kind(frame.camera, frame.size), costs_of(open().info));
     const Plan plan = plan_for(scene, frame, options_of(on.budget));
-    if (!plan.tables.empty()) on.bins = bin_report(open(), scene, frame, reader);
+    if (plan.tiles) on.bins = bin_report(open(), scene, frame, reader);
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
     const std::vector<VolumeReport> volumes = volumes_of(plan);
@@ -190,7 +193,8 @@ void explain(const ExplainArguments& arguments) {
         fmt::print("on {}, {} lanes: {}\n", on.device->info.name, on.device->info.lanes,
                    flags_of(*on.device, on.budget));
     if (on.budget) print_choice(*on.budget);
-    if (on.bins) print_bins(plan, *on.bins);
+    if (on.bins.decals) print_bins("decals", *on.bins.decals);
+    if (on.bins.lights) print_bins("lights", *on.bins.lights);
     print_volumes(volumes);
     print_numbers(plan, {scene, frame.cryptomatte});
     if (arguments.no_source) return;

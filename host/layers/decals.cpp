@@ -8,7 +8,8 @@
 
 #include "layers/common.h"
 #include "plan/decal_order.h"
-#include "scene/decal_reader.h"
+#include "scene/decal_columns.h"
+#include "scene/row_reader.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -50,7 +51,8 @@ void visit_rows(scene::Table& table, const DecalsLayer& bump) {
     static const std::vector<Projector> none;
     const std::vector<Projector>& rows = bump.rows ? *bump.rows : none;
     try {
-        scene::DecalReader reader(bump.file.string(), bump.textures.size(), scene::DecalReader::Form::memory);
+        const scene::RowKind<Projector> kind = scene::decal_rows(bump.textures.size());
+        scene::RowReader<Projector> reader(bump.file.string(), kind, scene::TableForm::memory);
         for (const Projector& row : rows) reader.check(row);
         reader.finish();
     } catch (const Error& error) { table.complain("rows", fmt::format("cannot be used:\n{}", error.what())); }

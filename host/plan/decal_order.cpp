@@ -18,23 +18,25 @@ std::uint64_t spread(std::uint64_t v) {
     return (v | v << 2) & 0x1249249249249249u;
 }
 
-std::vector<std::uint64_t> morton_codes(const std::vector<Projector>& rows) {
+/// `place` gets the position of a row.
+template <class Row>
+std::vector<std::uint64_t> morton_codes(const std::vector<Row>& rows, Vec3 Row::*place) {
     Vec3 low, high;
     low.fill(std::numeric_limits<double>::max());
     high.fill(std::numeric_limits<double>::lowest());
-    for (const Projector& row : rows)
+    for (const Row& row : rows)
         for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], row.center[k]);
-            high[k] = std::max(high[k], row.center[k]);
+            low[k] = std::min(low[k], (row.*place)[k]);
+            high[k] = std::max(high[k], (row.*place)[k]);
         }
     double widest = 0;
     for (std::size_t k = 0; k < 3; ++k) widest = std::max(widest, high[k] / 2 - low[k] / 2);
     std::vector<std::uint64_t> codes;
     codes.reserve(rows.size());
-    for (const Projector& row : rows) {
+    for (const Row& row : rows) {
         std::uint64_t code = 0;
         for (std::size_t k = 0; k < 3 && widest > 0; ++k)
-            code |= spread(static_cast<std::uint64_t>((row.center[k] / 2 - low[k] / 2) / widest * 2097151)) << k;
+            code |= spread(static_cast<std::uint64_t>(((row.*place)[k] / 2 - low[k] / 2) / widest * 2097151)) << k;
         codes.push_back(code);
     }
     return codes;
@@ -43,6 +45,9 @@ std::vector<std::uint64_t> morton_codes(const std::vector<Projector>& rows) {
 auto content(const Projector& r) {
     return std::tie(r.center, r.axis_x, r.axis_y, r.half_size, r.texture, r.region, r.scale, r.shape, r.falloff,
                     r.angle_fade, r.two_sided, r.wrap, r.repeat, r.opacity, r.object, r.cryptomatte);
+}
+auto content(const Light& l) {
+    return std::tie(l.position, l.color, l.intensity, l.range, l.kind, l.direction, l.inner_angle, l.outer_angle);
 }
 
 }  // namespace
@@ -54,7 +59,17 @@ std::vector<std::uint32_t> decal_order(const std::vector<Projector>& rows) {
         std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return rows[i].priority; });
         return order;
     }
-    const std::vector<std::uint64_t> codes = morton_codes(rows);
+    const std::vector<std::uint64_t> codes = morton_codes(rows, &Projector::center);
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return codes[a] != codes[b] ? codes[a] < codes[b] : content(rows[a]) < content(rows[b]);
+    });
+    return order;
+}
+
+std::vector<std::uint32_t> light_order(const std::vector<Light>& rows) {
+    std::vector<std::uint32_t> order(rows.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const std::vector<std::uint64_t> codes = morton_codes(rows, &Light::position);
     std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
         return codes[a] != codes[b] ? codes[a] < codes[b] : content(rows[a]) < content(rows[b]);
     });

@@ -12,4 +12,7 @@ namespace wrinkle {
 /// that neither the order nor any rounding depends on the order of the file.
 std::vector<std::uint32_t> decal_order(const std::vector<Projector>& rows);
 
+/// The same of the rows of a table of lights: along a Morton curve.
+std::vector<std::uint32_t> light_order(const std::vector<Light>& rows);
+
 }  // namespace wrinkle

@@ -25,7 +25,18 @@ std::string lit_surface_text(Emitter& emitter, Section& section) {
     } else {
         text += "        wr_vec3 albedo = wr_v3(lighting->albedo);\n";
     }
+    if (has_light_table(emitter))
+        text +=
+            "        wr_light_table light_table = {light_rows, light_lists, light_entries};\n"
+            "        wr_index light_tile = wr_tile_number(wr_to_index(at.x), wr_to_index(at.y) - (int)first_row, "
+            "(int)light_supers);\n";
     return text + roughness_text(emitter, section);
+}
+
+bool has_light_table(const Emitter& emitter) {
+    const Lighting& lighting = emitter.scene.lighting;
+    return emitter.options.write_normal && lighting.relight != Relight::off && lighting.table &&
+           !lighting.table->empty();
 }
 
 namespace {
@@ -44,14 +55,27 @@ bool specular_apart(const Emitter& emitter) {
 }  // namespace
 
 std::vector<LitTerm> lit_terms(const Emitter& emitter) {
+    const bool table = has_light_table(emitter);
+    const auto with_table = [&](const std::string& lights, bool diffuse, bool specular) {
+        if (!table || !(diffuse || specular)) return lights;
+        return fmt::format(
+            "wr_add({}, wr_light_of_table(light_table, light_tile, valid, {{p}}, {{n}}, base, v, albedo, "
+            "{{roughness}}, "
+            "lighting->f0, {}, {}))",
+            lights, diffuse ? 1 : 0, specular ? 1 : 0);
+    };
     if (emitter.scene.lighting.relight != Relight::ratio)
-        return {{"lit", "wr_light_surface({p}, {n}, base, v, albedo, {roughness}, lighting, lights)"}};
+        return {{"lit",
+                 with_table("wr_light_surface({p}, {n}, base, v, albedo, {roughness}, lighting, lights)", true, true)}};
     std::vector<LitTerm> terms{{"lit_sky", "wr_sky(lighting, {n}, base)"}};
-    const std::size_t last = pictures_of(emitter.scene.lighting).size() + (specular_apart(emitter) ? 1 : 0);
-    for (std::size_t k = 0; k <= last; ++k)
+    const bool apart = specular_apart(emitter);
+    const std::size_t last = pictures_of(emitter.scene.lighting).size() + (apart ? 1 : 0);
+    for (std::size_t k = 0; k <= last; ++k)  // no picture shows lights of a table
         terms.push_back(
             {lit_name(k),
-             fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k)});
+             with_table(
+                 fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k),
+                 k == 0, k == (apart ? last : 0))});
     return terms;
 }
 
@@ -62,6 +86,12 @@ std::string LitTerm::of(const std::string& p, const std::string& n, const std::s
 namespace {
 
 constexpr double kLight = 75;  // expected operations, of one normal and one light
+
+/// Lights that a pixel expects: all without a table, and a few of it.
+double lights_of_pixel(const Emitter& emitter) {
+    constexpr double kOfTable = 8;
+    return static_cast<double>(emitter.scene.lighting.lights.size()) + (has_light_table(emitter) ? kOfTable : 0);
+}
 
 /// Text that loads a picture as a vector, and where it is finite.
 std::string load_text(Section& section, const std::string& name, const std::array<std::string, 3>& planes) {
@@ -183,7 +213,7 @@ std::string relight_text(Emitter& emitter, Section& section) {
 Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     const Lighting& lighting = emitter.scene.lighting;
     const bool ratio = lighting.relight == Relight::ratio;
-    const double lights = static_cast<double>(lighting.lights.size());
+    const double lights = lights_of_pixel(emitter);
     const std::vector<LitTerm> terms = lit_terms(emitter);
     Section section;
     section.title = ratio ? "relight the picture by lit(new) / lit(old)" : "light";

@@ -62,9 +62,10 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     std::vector<std::string> inputs = geometry.planes;
     const bool area = over_area(emitter), normals = moved.by_normal || area;
     if (normals) inputs.insert(inputs.end(), {"normal.x", "normal.y", "normal.z"});
-    // All tables share the tiles: those over areas, and those at points that a parallax has moved.
+    // All tables share the tiles: those over areas, those at points that a parallax has moved, and lights, which reach
+    // a pixel where they reach its centre.
     std::string grow = area ? fmt::format("{0}{{\n{1}{0}}}\n", kIndent, grow_area_text(emitter, geometry)) : "";
-    if (!area || !moved.text.empty()) grow += grow_text(emitter, moved);
+    if (!area || !moved.text.empty() || has_light_table(emitter)) grow += grow_text(emitter, moved);
     std::string planes;
     for (const std::string& plane : inputs)
         planes += fmt::format("    global const float *restrict {},\n", identifier(plane));

@@ -148,7 +148,8 @@ const UvMapping* find_uv(const Layer& layer) {
 MovedPoints moved_points(Emitter& emitter, const std::string& indent) {
     const std::vector<Layer>& layers = emitter.scene.layers;
     const auto binned = [&](const Layer& layer) { return emitter.kind(layer).binned; };
-    const auto last = std::find_if(layers.rbegin(), layers.rend(), binned).base();
+    const auto last =
+        has_light_table(emitter) ? layers.end() : std::find_if(layers.rbegin(), layers.rend(), binned).base();
     MovedPoints moved;
     bool own_normal = true;  // n is still the base normal
     for (auto layer = layers.begin(); layer != last; ++layer) {

@@ -75,7 +75,8 @@ std::string sample_text(const TextureUse& use, const std::string& st, const std:
 /// Expected operations of such a sample.
 double sample_cost(const TextureUse& use);
 
-/// How far layers may move a point before the last table of decals is evaluated there: tiles must cover that way.
+/// How far layers may move a point before the last table, of decals or of lights, is evaluated there: tiles must cover
+/// that way.
 struct MovedPoints {
     std::string text;        ///< adds to `nearer` and `farther`, metres along the ray; reads v, distance and perhaps n
     bool by_normal = false;  ///< the text reads n, the base normal

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plan/decal_order.h"
 #include "plan/section.h"
 #include "wrinkle/error.h"
 
@@ -194,6 +195,10 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         text +=
             "    global const wr_projector *restrict projectors, global const uint *restrict lists,\n"
             "    global const uint *restrict entries, uint supers,\n";
+    if (plan.light_order)
+        text +=
+            "    global const wr_light *restrict light_rows, global const uint *restrict light_lists,\n"
+            "    global const uint *restrict light_entries, uint light_supers,\n";
     for (const std::string& plane : kernel.inputs)
         text += fmt::format("    global const float *restrict {},\n", identifier(plane));
     for (const std::string& plane : kernel.scratch)
@@ -244,7 +249,8 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     const std::vector<Section> sections = emit_sections(emitter);
     std::string bins;
     std::optional<PlannedKernel> tiles;
-    if (emitter.plan.projectors > 0) tiles = emit_bins(emitter, bins);
+    if (has_light_table(emitter)) emitter.plan.light_order = light_order(*scene.lighting.table);
+    if (emitter.plan.projectors > 0 || emitter.plan.light_order) tiles = emit_bins(emitter, bins);
     Plan plan = std::move(emitter.plan);
     plan.tiles = std::move(tiles);
     // The write-combining buffers of a core can hold this many streams, so even half cache lines may bypass the cache.
@@ -258,7 +264,7 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
 
     // Blocks may overlap, so a pixel may be computed twice. Split kernels add to planes in memory and would add to such
     // a pixel twice; and the code that loads neighbours expects a work-item's pixels one after another, not as a block.
-    plan.blocks = plan.projectors > 0 && !plan.neighbours && !options.split;
+    plan.blocks = plan.tiles && !plan.neighbours && !options.split;
 
     std::set<std::string> inputs;
     const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {

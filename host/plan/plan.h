@@ -153,12 +153,14 @@ struct Plan {
     std::vector<PlannedDecal> decals;  ///< in the order of the kernels' buffer
     std::vector<PlannedDecals> tables;
     std::size_t projectors = 0;          ///< rows of all tables together
-    std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors are binned to
+    std::optional<PlannedKernel> tiles;  ///< measures the tiles that projectors and lights are binned to
     bool neighbours = false;             ///< reads pixels of the rows above and below
     bool blocks = false;                 ///< work-items may evaluate blocks of pixels instead of rows
     bool specular_apart = false;         ///< what the picture shows as specular is relit apart from the rest
     std::vector<SectionSummary> sections;
     double bytes = 0;  ///< expected per pixel: planes read and written once
+    /// Rows of the lighting's table of lights, in the order of the device's table; nothing: it has none.
+    std::optional<std::vector<std::uint32_t>> light_order;
 };
 
 /// Throws Error naming the layer and the planes it lacks.

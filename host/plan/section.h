@@ -109,9 +109,9 @@ Section emit_decode(Emitter& emitter, const std::set<std::string>& wanted, const
 /// Kernel text that declares `dh`, the change of a height plane per pixel. Where no neighbour is on the same surface,
 /// it is 0 and the pixel is marked.
 std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section& section);
-/// The kernel that measures the tiles of the frame, for the bins of decals.
+/// The kernel that measures the tiles of the frame, for the bins of decals and lights.
 PlannedKernel emit_tiles(Emitter& emitter, std::string& source);
-/// The kernels that bin decals; gives the one that measures tiles, which reads planes.
+/// The kernels that bin decals and lights; gives the one that measures tiles, which reads planes.
 PlannedKernel emit_bins(Emitter& emitter, std::string& source);
 /// Kernel text that sets dp_dx and dp_dy, from p and n. `along` is text of r in p = r d, where d is the pixel's ray.
 std::string derivative_text(const Emitter& emitter, const std::string& along = "wr_along_ray(p, d)");
@@ -146,6 +146,8 @@ bool varies_over_area(const Emitter& emitter, const Layer& layer);
 /// Whether a scene wants to know how the slopes vary over a pixel.
 bool wants_spread(const Emitter& emitter);
 
+/// Whether the lighting has a table of lights.
+bool has_light_table(const Emitter& emitter);
 /// What is known when the lighting is reached.
 struct LightEnd {
     bool at_taps = false;  ///< every term of the light is its mean over the points of the pixel's area
@@ -160,7 +162,7 @@ struct LitTerm {
     std::string of(const std::string& p, const std::string& n, const std::string& roughness) const;
 };
 std::vector<LitTerm> lit_terms(const Emitter& emitter);
-/// Kernel text that declares v, albedo and roughness of the pixel.
+/// Kernel text that declares v, albedo and roughness of the pixel, and what lit_terms read of a table of lights.
 std::string lit_surface_text(Emitter& emitter, Section& section);
 /// Kernel text that declares roughness alone.
 std::string roughness_text(Emitter& emitter, Section& section);

@@ -11,7 +11,7 @@ namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 14 * sizeof(double) &&
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 15 * sizeof(double) &&
                   sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 35 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
@@ -41,6 +41,7 @@ wr_light fill_light(const Light& light, const Vec3& eye) {
     put(out.to_light, scaled(normalize(light.direction), -1));
     out.cos_outer = std::cos(light.outer_angle);
     out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
+    if (light.range) out.fade = 1 / (*light.range * *light.range);
     return out;
 }
 
@@ -208,6 +209,11 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
         const LightPictures numbers = picture_numbers(pictures, light, plan.specular_apart);
         out.lights.back().diffuse = static_cast<double>(numbers.diffuse);
         out.lights.back().specular = static_cast<double>(numbers.specular);
+    }
+    if (plan.light_order) {
+        out.light_table.reserve(plan.light_order->size());
+        for (const std::uint32_t row : *plan.light_order)
+            out.light_table.push_back(fill_light(lighting.table->at(row), eye));
     }
     // Without a sky in the scene, the light in shadows is unknown. A pixel of the picture that shows less than half of
     // what the lights would give then counts as in full shadow.

@@ -18,6 +18,7 @@ struct FrameConstants {
     std::vector<wr_projector> projectors;  ///< of all tables, in the order of evaluation
     wr_lighting lighting{};
     std::vector<wr_light> lights;
+    std::vector<wr_light> light_table;  ///< in the order of the plan
 };
 
 /// A camera, and the frame that it fills, as kernels read them.

@@ -9,11 +9,11 @@
 
 namespace wrinkle {
 
-BinReport bin_report(const Device& device, const Scene& scene, const Frame& frame, const GBufferReader& reader) {
-    return guarded("bin decals", [&] {
+FrameBins bin_report(const Device& device, const Scene& scene, const Frame& frame, const GBufferReader& reader) {
+    return guarded("bin decals and lights", [&] {
         Pass pass = evaluate(device, scene, frame);
         Pass::Impl& impl = pass.impl();
-        if (!impl.plan.tiles) return BinReport{};
+        if (!impl.plan.tiles) return FrameBins{};
         const Size size = frame.size;
         const std::vector<std::string>& names = impl.plan.tiles->inputs;
         check_memory(reader.path().string(), 4.0 * size.width * size.height * static_cast<double>(names.size()),
@@ -27,11 +27,14 @@ BinReport bin_report(const Device& device, const Scene& scene, const Frame& fram
         }
         reader.read_rows(0, size.height, names, into);
         planes.unmap();
-        impl.bins
-            .enqueue(impl.frame, impl.numbers, buffers, {.first = 0, .count = size.height}, size.width, 0,
-                     size.width * size.height, planes.ready())
-            .wait();
-        return impl.bins.read(size.width, size.height);
+        const auto read = [&](TileBins& bins) -> std::optional<BinReport> {
+            if (bins.rows() == 0) return {};
+            bins.enqueue(impl.frame, impl.numbers, buffers, {.first = 0, .count = size.height}, size.width, 0,
+                         size.width * size.height, planes.ready())
+                .wait();
+            return bins.read(size.width, size.height);
+        };
+        return FrameBins{read(impl.bins), read(impl.light_bins)};
     });
 }
 

@@ -10,6 +10,8 @@
 #include "base/limits.h"
 #include "device/work_group.h"
 #include "layers/kinds.h"
+#include "plan/decal_order.h"
+#include "resources/bin_bounds.h"
 #include "resources/frame_constants.h"
 #include "scene/check_scene.h"
 #include "wrinkle/error.h"
@@ -107,7 +109,6 @@ Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const Pa
 
     const auto build_start = Clock::now();
     built = build_program(device, plan.source, {options.lanes, options.fp64});
-    if (plan.tiles) bins = DecalBins(device, built.program, plan, options.lanes);
     for (const PlannedKernel& planned : plan.kernels) {
         kernels.emplace_back(built.program, planned.name.c_str());
         for (const std::string& name : planned.scratch)
@@ -138,16 +139,17 @@ void Pass::Impl::set_parameters(const Scene& other) {
     change([&] {
         scene = other;
         for (PlannedDecals& table : plan.tables) table.take_rows(table, {scene, cryptomatte});
+        if (plan.light_order) plan.light_order = light_order(*scene.lighting.table);
     });
 }
 
 void Pass::Impl::change(const std::function<void()>& what) {
     const auto state = [this] {
-        return std::tie(camera, scene, plan.tables, plan.projectors, bins, frame, numbers, eye_places, decals,
-                        light_setup, lights);
+        return std::tie(camera, scene, plan.tables, plan.projectors, plan.light_order, bins, light_bins, frame, numbers,
+                        eye_places, decals, light_setup, lights);
     };
-    auto before = std::make_tuple(camera, scene, plan.tables, plan.projectors, bins, frame, numbers, eye_places, decals,
-                                  light_setup, lights);
+    auto before = std::make_tuple(camera, scene, plan.tables, plan.projectors, plan.light_order, bins, light_bins,
+                                  frame, numbers, eye_places, decals, light_setup, lights);
     try {
         what();
         upload_constants();
@@ -166,11 +168,26 @@ void Pass::Impl::upload_constants() {
     decals = structs(device, constants.decals, wide);
     light_setup = structs(device, std::vector{constants.lighting}, wide);
     lights = structs(device, constants.lights, wide);
-    if (plan.tiles && plan.projectors != constants.projectors.size()) {  // other rows
-        plan.projectors = constants.projectors.size();
-        bins = DecalBins(device, built.program, plan, options.lanes);
-    }
-    if (plan.tiles) bins.set_camera(constants, camera, structs(device, constants.projectors, wide));
+    plan.projectors = constants.projectors.size();
+    make_bins();
+    if (plan.projectors > 0)
+        bins.set_camera(bin_bounds(constants.projectors, camera), structs(device, constants.projectors, wide), wide);
+    if (plan.light_order)
+        light_bins.set_camera(bin_bounds(constants.light_table, camera), structs(device, constants.light_table, wide),
+                              wide);
+}
+
+void Pass::Impl::make_bins() {
+    if (bins.rows() != plan.projectors) bins = TileBins(device, built.program, plan.projectors, options.lanes);
+    const std::size_t rows = plan.light_order ? plan.light_order->size() : 0;
+    if (light_bins.rows() != rows) light_bins = TileBins(device, built.program, rows, options.lanes);
+}
+
+std::vector<TileBins*> Pass::Impl::tile_bins() {
+    std::vector<TileBins*> some;
+    if (plan.projectors > 0) some.push_back(&bins);
+    if (plan.light_order) some.push_back(&light_bins);
+    return some;
 }
 
 cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
@@ -192,8 +209,11 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     if (plan.tiles) {
         std::vector<cl::Buffer> planes;
         for (const std::string& name : plan.tiles->inputs) planes.push_back(plane(in, name, in_bytes));
-        after = {bins.enqueue(frame, numbers, planes, rows, size.width, static_cast<cl_uint>(before),
-                              static_cast<cl_uint>(in_pixels), after)};
+        std::vector<cl::Event> binned;
+        for (TileBins* each : tile_bins())
+            binned.push_back(each->enqueue(frame, numbers, planes, rows, size.width, static_cast<cl_uint>(before),
+                                           static_cast<cl_uint>(in_pixels), after));
+        after = std::move(binned);
     }
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         cl::Kernel& kernel = kernels[k];
@@ -201,7 +221,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         for (const cl::Buffer* buffer : std::initializer_list<const cl::Buffer*>{
                  &frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
-        if (plan.tiles) bins.set_arguments(kernel, i);
+        for (const TileBins* each : tile_bins()) each->set_arguments(kernel, i);
         for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));
         for (const std::string& name : plan.kernels[k].scratch)
             kernel.setArg(
@@ -231,7 +251,7 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         else
             device.queue.enqueueMarkerWithWaitList(&done, &after.front());
     }
-    if (plan.tiles) bins.used_until(after.front());
+    for (TileBins* each : tile_bins()) each->used_until(after.front());
     if (!scratch.empty()) scratch_use = {after.front()};
     return after.front();
 }

@@ -5,8 +5,8 @@
 
 #include "device/program.h"
 #include "plan/plan.h"
-#include "resources/decal_bins.h"
 #include "resources/texture_store.h"
+#include "resources/tile_bins.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
@@ -25,7 +25,7 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     std::vector<cl::Kernel> kernels;
     std::shared_ptr<const DeviceTextures> textures;
     cl::Buffer frame, numbers, eye_places, decals, light_setup, lights;
-    DecalBins bins;                   ///< of the plan's tables of decals, if it has any
+    TileBins bins, light_bins;        ///< of the plan's tables of decals, of its table of lights, if it has any
     std::vector<cl::Buffer> scratch;  ///< split plans: a frame each, in the order of scratch_names
     std::vector<std::string> scratch_names;
     std::vector<cl::Event> scratch_use;  ///< the evaluation that scratch belongs to until it is done
@@ -49,6 +49,10 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     void change(const std::function<void()>& what);
     /// Computes the constants that depend on the camera and on the scene's numbers, and uploads them.
     void upload_constants();
+    /// Bins for as many rows of tables as there are.
+    void make_bins();
+    /// Those that there are, in the order of the kernels' arguments.
+    std::vector<TileBins*> tile_bins();
     /// Evaluates the rows, or only `some` of their work-items where any are given.
     cl::Event enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                       const std::vector<cl::Event>& wait, std::span<const Items> some = {});

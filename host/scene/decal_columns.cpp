@@ -1,66 +1,14 @@
 #include "scene/decal_columns.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <numbers>
 
-#include "base/names.h"
-#include "scene/table.h"
+#include "base/vec.h"
+#include "scene/column_values.h"
 
 namespace wrinkle::scene {
 namespace {
 
-constexpr Range degrees{.low = 0, .high = 180};
-constexpr double kDegree = std::numbers::pi / 180;
-
-std::string wanted(const Range& range) {
-    if (range.low == 0 && range.high == 1) return "a number from 0 to 1";
-    if (range.low == 0 && range.high == 180) return "degrees from 0 to 180";
-    if (range.low == 0) return range.low_is_allowed ? "0 or a positive number" : "a positive number";
-    return "a number within the range of 32-bit floats";
-}
-
-std::string number(double value, double& out, const Range& range) {
-    const bool above = range.low_is_allowed ? value >= range.low : value > range.low;
-    if (!above || !(value <= range.high)) return "must be " + wanted(range);
-    if (range.low == 0 && !range.low_is_allowed && value < std::numeric_limits<float>::min())
-        return "must be at least 1.2e-38, the smallest 32-bit float";
-    out = value;
-    return {};
-}
-
-/// The number that a field holds; NaN, which is outside of every range, where the field is not a number as a whole.
-double parsed(std::string_view field) {
-    if (field.front() == '+') field.remove_prefix(1);
-    double value = 0;
-    const auto [end, failure] = std::from_chars(field.data(), field.data() + field.size(), value);
-    const bool sound = failure == std::errc() && end == field.data() + field.size();
-    return sound ? value : std::numeric_limits<double>::quiet_NaN();
-}
-
-template <std::size_t N>
-std::string name(std::string_view field, const char* const (&names)[N], int& out) {
-    std::string all;
-    for (std::size_t i = 0; i < N; ++i) {
-        if (field == names[i]) {
-            out = static_cast<int>(i);
-            return {};
-        }
-        all += (i > 0 ? ", " : "") + quote(names[i]);
-    }
-    return "must be one of " + all;
-}
-
-template <class E, std::size_t N>
-std::string choice(std::string_view field, const char* const (&names)[N], E& out) {
-    int index = 0;
-    std::string problem = name(field, names, index);
-    if (problem.empty()) out = static_cast<E>(index);
-    return problem;
-}
+using Row = Projector;
 
 constexpr const char* shapes[] = {"box", "sphere", "cone"};
 constexpr const char* wraps[] = {"tile", "clamp"};  // in the order of Wrap
@@ -83,14 +31,7 @@ std::string whole(double value, std::uint32_t& out) {
     return sound ? std::string{} : "must be a whole number, 0 or more";
 }
 
-std::string number_held(double value, const Range& range) { return number(value, value, range); }
 std::string any_held(std::uint32_t) { return {}; }
-
-template <class E, std::size_t N>
-std::string choice_held(E value, const char* const (&names)[N]) {
-    int index = static_cast<int>(value);
-    return index >= 0 && index < static_cast<int>(N) ? std::string{} : name("", names, index);
-}
 
 std::string truth(double value, bool& out) {
     if (value == 0 || value == 1) out = value == 1;
@@ -111,31 +52,12 @@ std::string object(double value, std::optional<double>& out) {
             [](double value, Projector& p) { return READ(value, MEMBER); },                                       \
             [](const Projector& p) { return WRONG(MEMBER); }, [](const Projector& p) { return WRITE; }            \
     }
-/// A column of numbers in RANGE; rows that were made in code may have any in HELD.
-#define RANGED(NAME, KEY, SIZE, MEMBER, RANGE, HELD)                                             \
-    {                                                                                            \
-        NAME, KEY, SIZE, Field::number,                                                          \
-            [](std::string_view f, Projector& p) { return number(parsed(f), p.MEMBER, RANGE); }, \
-            [](double value, Projector& p) { return number(value, p.MEMBER, RANGE); },           \
-            [](const Projector& p) { return number_held(p.MEMBER, HELD); },                      \
-            [](const Projector& p) { return fmt::format("{}", p.MEMBER); }                       \
-    }
-#define NUMBER(NAME, MEMBER, RANGE) RANGED(NAME, NAME, 0, MEMBER, RANGE, RANGE)
 #define PAIR(X, Y, KEY, MEMBER, RANGE) \
     RANGED(X, KEY, 2, MEMBER[0], RANGE, RANGE), RANGED(Y, KEY, 2, MEMBER[1], RANGE, RANGE)
-#define VECTOR(X, Y, Z, KEY, MEMBER, RANGE, HELD)                                         \
-    RANGED(X, KEY, 3, MEMBER[0], RANGE, HELD), RANGED(Y, KEY, 3, MEMBER[1], RANGE, HELD), \
-        RANGED(Z, KEY, 3, MEMBER[2], RANGE, HELD)
-#define CHOICE(NAME, FIELD, MEMBER, NAMES, TAKE)                                                                 \
-    {                                                                                                            \
-        NAME, NAME, 0, FIELD, [](std::string_view f, Projector& p) { return choice(f, NAMES, p.MEMBER); }, TAKE, \
-            [](const Projector& p) { return choice_held(p.MEMBER, NAMES); },                                     \
-            [](const Projector& p) { return std::string(NAMES[static_cast<int>(p.MEMBER)]); }                    \
-    }
 #define ANGLE(NAME, MEMBER) CHECKED(NAME, "angle_fade", 2, MEMBER, angle, cosine, angle_text(MEMBER))
 
 // The columns of the position come first: they are the ones that have to be there.
-constexpr DecalColumn columns[] = {
+constexpr Column<Projector> columns[] = {
     VECTOR("x", "y", "z", "center", center, any_number, any_number),
     CHOICE("shape", Field::name, shape, shapes, nullptr),
     CHECKED("texture", "texture", 0, p.texture, whole, any_held, fmt::format("{}", p.texture)),
@@ -175,8 +97,34 @@ constexpr DecalColumn columns[] = {
      [](const Projector& p) { return p.cryptomatte; }},
 };
 
+/// Keys of which one number may stand for every element.
+constexpr std::string_view uniform[] = {"half_size", "falloff", "repeat"};
+
+void check_together(const Projector& row, std::size_t textures, const Wrong& wrong) {
+    if (row.texture >= textures)
+        wrong({"texture"}, fmt::format("is {}; the layer has {} texture{}, counted from 0", row.texture, textures,
+                                       textures == 1 ? "" : "s"));
+    if (row.region[0] >= row.region[2] || row.region[1] >= row.region[3])
+        wrong({"s0", "t0", "s1", "t1"}, "must have s0 below s1, and t0 below t1");
+    if (row.angle_fade[0] > row.angle_fade[1])
+        wrong({"angle_full", "angle_zero"}, "must be the angle that gets all, then a larger one that gets nothing");
+    if (row.object && !row.cryptomatte.empty())
+        wrong({"object", "cryptomatte"}, "cannot both be given; leave one empty");
+    if (parallel(row.axis_x, row.axis_y))
+        wrong({"axis_x_x", "axis_x_y", "axis_x_z", "axis_y_x", "axis_y_y", "axis_y_z"},
+              "must be two axes, not parallel, nor zero");
+}
+
 }  // namespace
 
-std::span<const DecalColumn> decal_columns() { return columns; }
+RowKind<Projector> decal_rows(std::size_t textures) {
+    return {.name = "decal",
+            .columns = columns,
+            .required = 3,
+            .uniform = uniform,
+            .bytes = 1300,  // measured: a row, what kernels get of it, and the bins that it lies in
+            .begin = [](Projector& row, std::uint32_t line) { row.line = line; },
+            .together = [textures](const Projector& row, const Wrong& wrong) { check_together(row, textures, wrong); }};
+}
 
 }  // namespace wrinkle::scene

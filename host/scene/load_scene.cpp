@@ -37,20 +37,21 @@ void read_lights(Table& root, Lighting& out) {
     std::uint32_t line = root.line_of("lighting");
     if (auto table = root.table("lighting", "[lighting]")) {
         read_lighting(*table, out);
-        relight_is_sound = !table->is_bad("relight");
+        relight_is_sound = !table->is_bad("relight") && !table->is_bad("lights");
         line = table->line_of("relight");
     }
     std::vector<Table> lights = root.tables("light", out.lights.size());
     out.lights.resize(lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) read_light(lights[i], out.lights[i]);
     if (!relight_is_sound || root.is_bad("light") || root.is_bad("lighting")) return;
+    const bool any = !lights.empty() || (out.table && !out.table->empty());
     if (out.relight == Relight::off && !lights.empty() && !root.visits())
         root.document().problems.add(lights.front().line(),
                                      "[[light]] has no effect while relighting is off; set relight = \"lit\" or "
                                      "\"ratio\" in [lighting], or remove the lights");
     // A file's lights may be left to those who open its frame: they are fitted to the picture.
     const bool fitted = out.relight == Relight::ratio && !root.visits();
-    if (out.relight != Relight::off && lights.empty() && out.ambient == Vec3{} && !fitted)
+    if (out.relight != Relight::off && !any && out.ambient == Vec3{} && !fitted)
         root.document().problems.add(
             line,
             fmt::format("relight without light: add a [[light]]{}, or set ambient in [lighting], or set relight = "

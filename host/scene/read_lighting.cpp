@@ -4,7 +4,10 @@
 
 #include "base/vec.h"
 #include "scene/kinds.h"
+#include "scene/light_columns.h"
 #include "scene/readers.h"
+#include "scene/row_reader.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::scene {
 namespace {
@@ -37,6 +40,12 @@ void read_direction(Table& table, Light& light) {
     light.direction = normalize(light.direction);
 }
 
+/// Whether there is one is not compiled in: lights come and go.
+void read_range(Table& table, Light& light) {
+    double range = light.range.value_or(1);
+    if ((!table.visits() || light.range) && table.read("range", range, positive)) light.range = range;
+}
+
 void read_sky(Table& table, Light& light) {
     light.kind = LightKind::sky;
     if (table.read("up", light.up) && light.up == Vec3{})
@@ -62,6 +71,7 @@ void read_point(Table& table, Light& light) {
     read_color(table, light);
     read_pictures(table, light);
     read_position(table, light);
+    read_range(table, light);
 }
 
 void read_spot(Table& table, Light& light) {
@@ -69,6 +79,7 @@ void read_spot(Table& table, Light& light) {
     read_color(table, light);
     read_pictures(table, light);
     read_position(table, light);
+    read_range(table, light);
     read_direction(table, light);
     table.read_degrees("inner_angle", light.inner_angle, {.low = 0, .high = 180});
     table.read_degrees("outer_angle", light.outer_angle, {.low = 0, .high = 180});
@@ -82,6 +93,30 @@ void read_spot(Table& table, Light& light) {
 }
 
 constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spot", read_spot}, {"sky", read_sky}};
+
+/// Checks a table of a scene in memory, and says what of it is compiled in.
+void visit_light_table(Table& table, const Lighting& lighting) {
+    const bool any = lighting.table && !lighting.table->empty();
+    table.compiled_in("lights", any);
+    if (!any) return;
+    try {
+        const RowKind<Light> kind = light_rows();
+        RowReader<Light> reader(lighting.table_file.string(), kind, TableForm::memory);
+        for (const Light& light : *lighting.table) reader.check(light);
+        reader.finish();
+    } catch (const Error& error) { table.complain("lights", fmt::format("cannot be used:\n{}", error.what())); }
+}
+
+void read_light_table(Table& table, Lighting& out) {
+    if (table.visits()) return visit_light_table(table, out);
+    if (!table.read_file("lights", out.table_file)) return;
+    if (out.relight == Relight::off && !table.is_bad("relight"))
+        table.complain("lights",
+                       "has no effect while relighting is off; set relight = \"lit\" or \"ratio\", or remove it");
+    try {
+        out.table = std::make_shared<const std::vector<Light>>(load_lights(out.table_file));
+    } catch (const Error& error) { table.complain("lights", fmt::format("cannot be used:\n{}", error.what())); }
+}
 
 }  // namespace
 
@@ -110,6 +145,7 @@ void read_lighting(Table& table, Lighting& out) {
         read_leave(*leave, mask);
         out.leave = std::move(mask);
     }
+    read_light_table(table, out);
     table.read("exposure", out.exposure, {.low = -64, .high = 64});
     table.finish();
 }

@@ -168,7 +168,8 @@ FrameLights lights_of_frame(const Scene& scene, int frame) {
 
 bool wants_lights(const Scene& scene) {
     const Lighting& lighting = scene.lighting;
-    return lighting.relight == Relight::ratio && lighting.lights.empty() && lighting.ambient == Vec3{};
+    return lighting.relight == Relight::ratio && lighting.lights.empty() &&
+           (!lighting.table || lighting.table->empty()) && lighting.ambient == Vec3{};
 }
 
 Scene with_lights(Scene scene, const FrameLights& lights) {

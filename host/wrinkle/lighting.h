@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,9 @@ struct Light {
     Vec3 position{};                              ///< world; point, spot
     Vec3 direction{0, 0, -1};                     ///< the way the light travels; sun, spot
     double inner_angle = 0.4, outer_angle = 0.6;  ///< radians from the axis; spot
+    /// Metres at which the light has faded away, by (1 - (distance / range)^4)^2; nothing: it reaches everywhere.
+    /// point, spot
+    std::optional<double> range{};
     /// Layers of the frame that show this light's share of the picture alone: all of it, or what is diffuse and what is
     /// specular of it apart; empty: none does. sun, point, spot
     std::string picture{}, diffuse{}, specular{};
@@ -51,7 +56,16 @@ struct Lighting {
     double max_ratio = 4;                ///< bound of lit(new)/lit(old), and 1/bound below
     double exposure = 0;                 ///< stops, of the PNG only
     std::vector<Light> lights;
-    std::optional<Mask> leave{};  ///< where the picture stays as it is; a mask without a texture
+    /// Points and spots beside these, as many as you like: where they have ranges, the cost follows how many reach a
+    /// pixel. They have no pictures of their own.
+    std::shared_ptr<const std::vector<Light>> table{};
+    std::filesystem::path table_file{};  ///< that the table is from, for messages; empty for one made in code
+    std::optional<Mask> leave{};         ///< where the picture stays as it is; a mask without a texture
 };
+
+/// Reads a table of lights: CSV, a row of column names, then a row a light; TOML (.toml), a [[light]] a row; or .npy,
+/// records with fields named as the columns of CSV are; data/scenes/README.md lists them. Throws Error with the line
+/// (.npy: the row) and column of each mistake, the first 20 of them.
+std::vector<Light> load_lights(const std::filesystem::path& file);
 
 }  // namespace wrinkle

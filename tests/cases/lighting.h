@@ -16,6 +16,7 @@ inline Lighting test_lighting() {
                        {LightKind::point, {0.5, 1, 1}, 8, {2, -1, 3}, {0, 0, -1}, 0, 0},
                        {LightKind::spot, {1, 1, 0.5}, 16, {-2, 1, 4}, {0, 0, -1}, 0.25, 0.75}};
     lighting.lights[1].picture = "lamp", lighting.lights[2].specular = "gleam";
+    lighting.lights[2].range = 40;
     Light sky{.kind = LightKind::sky};
     sky.intensity = 0.5, sky.up = {0.36, -0.48, 0.8};
     sky.zenith = {0.25, 0.5, 1}, sky.horizon = {0.75, 0.75, 0.5}, sky.ground = {0.25, 0.125, 0};

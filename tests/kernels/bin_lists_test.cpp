@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "device/program.h"
-#include "resources/decal_bounds.h"
+#include "resources/bin_bounds.h"
 #include "tests/cases/projector.h"
 #include "tests/kernels/kernel_function.h"
 
@@ -41,7 +41,7 @@ struct Lists {
 /// Decals that are boxes parallel to the axes, for which the tests of boxes are exact, and 16 children among them.
 struct BinSetup {
     std::vector<Box> decals;
-    DecalBounds bounds;
+    BinBounds bounds;
     std::vector<Box> children;
     std::vector<float> child_planes = std::vector<float>(96);
 
@@ -55,7 +55,7 @@ struct BinSetup {
             const V center{box.center.x, -box.center.y, -box.center.z};  // right, down and forward of the camera below
             decals.push_back({center - half, center + half});
         }
-        bounds = decal_bounds(records, Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1, 1));
+        bounds = bin_bounds(records, Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1, 1));
         for (unsigned k = 0; k < 16; ++k) {
             Random random(5000 + k);
             const V middle = random.box(4), half{random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};

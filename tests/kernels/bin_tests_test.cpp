@@ -4,7 +4,7 @@
 #include <set>
 
 #include "device/program.h"
-#include "resources/decal_bounds.h"
+#include "resources/bin_bounds.h"
 #include "tests/cases/projector.h"
 #include "tests/kernels/kernel_function.h"
 
@@ -141,7 +141,7 @@ TEST(BinTests, ADecalIsNeverMissedAndSeldomFoundForNothing) {
         for (const auto& plane : planes) bounds.insert(bounds.end(), plane.begin(), plane.end());
     }
     const Camera upright = Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1, 1);
-    const DecalBounds decals = decal_bounds(records, upright);
+    const BinBounds decals = bin_bounds(records, upright);
     const std::vector<unsigned> got = touches(decals.boxes, bounds, count);
     std::size_t touching = 0, listed = 0, missed = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -101,7 +101,7 @@ TEST(Layout, Light) {
     const auto s = counted<wr_light>();
     std::vector<Member> members;
     MEMBER(kind), MEMBER(color), MEMBER(position), MEMBER(to_light), MEMBER(cos_inner), MEMBER(cos_outer);
-    MEMBER(diffuse), MEMBER(specular);
+    MEMBER(diffuse), MEMBER(specular), MEMBER(fade);
     check_layout("wr_light", members, sizeof s);
 }
 

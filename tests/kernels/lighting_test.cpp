@@ -34,6 +34,16 @@ TEST(Lighting, WhatOnePictureShowsOfTheLights) {
            answer("sky", "sky")});
 }
 
+TEST(Lighting, FadesToNothingAtTheRange) {
+    cases::Cases c{.name = "range window"};
+    for (const real distance : {0.0L, 1e-20L, 0.01L, 0.3L, 0.7L, 0.9L, 0.99L, 0.9999L, 1.0L, 1.0001L, 2.0L, 1e18L}) {
+        c.add(fmt::format("at {} of the range", double(distance)), distance > 1e10L);
+        const real square = static_cast<float>(distance * distance);
+        c.in("square", square), c.out("keeps", reference::range_window(1.0, std::sqrt(square)));
+    }
+    check(c, "wr_real keeps = wr_range_window(square);", {{"keeps", {"keeps"}, ErrorMeasure::absolute, 5e-7, 5e-7}});
+}
+
 TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
     const float z = 1, far = 1e20f, near = 1e-20f;
     const Columns columns{{"p.x", {2, 2 + 1e-6f, far, near, 2}},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <set>
@@ -76,15 +77,24 @@ struct Arrival {
     Vec<T> direction, irradiance;
 };
 
+/// Share of its strength that a light keeps at a distance: (1 - (distance / range)^4)^2 [Karis 2013], and none beyond.
+template <class T>
+T range_window(const std::optional<double>& range, T distance) {
+    if (!range) return 1;
+    const T x = distance / T(*range), left = 1 - x * x * x * x;
+    return x < 1 ? left * left : T(0);
+}
+
 template <class T>
 Arrival<T> arrival(const Light& light, Vec<T> p) {
-    const Vec<T> power = from_array<T>(light.color) * T(light.intensity);
+    const Vec<T> full = from_array<T>(light.color) * T(light.intensity);
     const Vec<T> axis = normalize(from_array<T>(light.direction));
-    if (light.kind == LightKind::sun) return {-axis, power};
+    if (light.kind == LightKind::sun) return {-axis, full};
     const Vec<T> to = from_array<T>(light.position) - p;
     const Vec<T> l = normalize(to);
     const T r2 = dot(to, to);
     if (!(r2 > 0)) return {};
+    const Vec<T> power = full * range_window(light.range, std::sqrt(r2));
     if (light.kind == LightKind::point) return {l, power / r2};
     const T outer = std::cos(T(light.outer_angle)), inner = std::cos(T(light.inner_angle)), c = -dot(l, axis);
     const T t = inner == outer ? T(c >= outer) : saturate((c - outer) / (inner - outer));
@@ -170,8 +180,8 @@ Lobes<T> lobes_by(const std::string& picture, const Lighting& lighting, Vec<T> n
     const auto times = [](Vec<T> a, Vec<T> b) { return Vec<T>{a.x * b.x, a.y * b.y, a.z * b.z}; };
     Lobes<T> sum;
     const Vec<T> mirror = mirror_normal(n, base, v);
-    for (const Light& light : lighting.lights) {
-        if (light.kind == LightKind::sky) continue;
+    const auto add = [&](const Light& light) {
+        if (light.kind == LightKind::sky) return;
         const Arrival<T> a = arrival(light, p);
         const T nl = std::max(dot(n, a.direction), T(0)), ml = std::max(dot(mirror, a.direction), T(0));
         const T specular = ml > 0 ? ml * mirrored(mirror, v, a.direction, s) : T(0);
@@ -179,7 +189,9 @@ Lobes<T> lobes_by(const std::string& picture, const Lighting& lighting, Vec<T> n
         if (diffuse_picture(light) == picture)
             sum.diffuse = sum.diffuse + times(s.albedo * (nl / std::numbers::pi_v<T>), arrives);
         if (specular_picture(light) == picture) sum.specular = sum.specular + arrives * specular;
-    }
+    };
+    std::ranges::for_each(lighting.lights, add);
+    if (lighting.table) std::ranges::for_each(*lighting.table, add);
     return sum;
 }
 

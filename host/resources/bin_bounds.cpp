@@ -1,4 +1,4 @@
-#include "resources/decal_bounds.h"
+#include "resources/bin_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,8 @@ float narrow(double v) { return static_cast<float>(std::clamp(v, -3e38, 3e38)); 
 
 }  // namespace
 
-DecalBounds decal_bounds(const std::vector<wr_projector>& decals, const Camera& camera) {
-    DecalBounds out;
+BinBounds bin_bounds(const std::vector<wr_projector>& decals, const Camera& camera) {
+    BinBounds out;
     const auto row = [&](std::size_t i) { return V3d(camera.view[i][0], camera.view[i][1], camera.view[i][2]); };
     const V3d right = direction(row(0)), back = direction(right.cross(row(1)));
     out.axes = {right, right.cross(back), -back};
@@ -63,6 +63,20 @@ DecalBounds decal_bounds(const std::vector<wr_projector>& decals, const Camera& 
         box[15] = static_cast<float>(decal.shape);
     }
     return out;
+}
+
+BinBounds bin_bounds(const std::vector<wr_light>& lights, const Camera& camera) {
+    constexpr double kEverywhere = 1e30;  // metres: the radius of lights without a range
+    std::vector<wr_projector> spheres;
+    spheres.reserve(lights.size());
+    for (const wr_light& light : lights) {
+        wr_projector& sphere = spheres.emplace_back();
+        std::ranges::copy(light.position, sphere.center);
+        sphere.to_box_x[0] = sphere.to_box_y[1] = sphere.to_box_z[2] =
+            light.fade > 0 ? std::max(std::sqrt(light.fade), 1 / kEverywhere) : 1 / kEverywhere;
+        sphere.shape = static_cast<double>(ProjectorShape::sphere);
+    }
+    return bin_bounds(spheres, camera);
 }
 
 }  // namespace wrinkle

@@ -9,14 +9,15 @@
 
 namespace wrinkle {
 
-/// Boxes around decals as kernels/bins reads them, in axes along the image.
-struct DecalBounds {
+/// Boxes around decals, or around where lights reach, as kernels/bins reads them, in axes along the image.
+struct BinBounds {
     std::array<Imath::V3d, 3> axes{};  ///< right, down, forward; unit
-    std::vector<float> boxes;          ///< WR_BOX_NUMBERS a decal
+    std::vector<float> boxes;          ///< WR_BOX_NUMBERS a row
     std::vector<float> bounds;         ///< 6 planes of low and high corners, padded to whole sixteens
     std::vector<float> groups;         ///< the same of each sixteen, padded likewise
 };
 
-DecalBounds decal_bounds(const std::vector<wr_projector>& decals, const Camera& camera);
+BinBounds bin_bounds(const std::vector<wr_projector>& decals, const Camera& camera);
+BinBounds bin_bounds(const std::vector<wr_light>& lights, const Camera& camera);
 
 }  // namespace wrinkle

@@ -9,10 +9,11 @@
 
 namespace wrinkle {
 
-struct FrameConstants;
+struct BinBounds;
 
 /// What the bins of one band hold; read back for reports and tests.
 struct BinReport {
+    std::uint64_t rows = 0;       ///< of the table
     std::uint32_t tiles = 0;      ///< that cover the rows
     std::uint32_t touched = 0;    ///< tiles whose list is not empty
     std::uint32_t inherited = 0;  ///< tiles that use the list of the block around them, as their own found no room
@@ -21,22 +22,24 @@ struct BinReport {
     std::uint64_t bytes = 0;  ///< of tables, bounds and lists on the device
 };
 
-/// Bins the decals of a plan's tables to tiles of the frame, on the device, before the kernels that evaluate them:
-/// nothing is read back, so enqueueing never waits. kernels/bins says how.
-class DecalBins {
+/// Bins the rows of tables, of decals or of lights, to tiles of the frame, on the device, before the kernels that
+/// evaluate them: nothing is read back, so enqueueing never waits. kernels/bins says how.
+class TileBins {
 public:
-    DecalBins() = default;
-    DecalBins(const Device& device, const cl::Program& program, const Plan& plan, int lanes);
+    TileBins() = default;
+    TileBins(const Device& device, const cl::Program& program, std::size_t rows, int lanes);
 
-    /// The decals as one camera sees them, and the buffer that kernels read them from.
-    void set_camera(const FrameConstants& constants, const Camera& camera, cl::Buffer projectors);
+    std::size_t rows() const { return rows_; }
+
+    /// The rows as one camera sees them, and the buffer that kernels read them from, of doubles or of floats.
+    void set_camera(const BinBounds& bounds, cl::Buffer table, bool fp64);
 
     /// Bins for rows of the frame. `in` are the planes, in which the rows begin at pixel `in_first`.
     cl::Event enqueue(const cl::Buffer& frame, const cl::Buffer& numbers, const std::vector<cl::Buffer>& in,
                       const Rows& rows, std::uint32_t width, std::uint32_t in_first, std::uint32_t in_pixels,
                       const std::vector<cl::Event>& wait);
 
-    /// Sets the arguments of a kernel that evaluates: projectors, lists, entries, super blocks a row.
+    /// Sets the arguments of a kernel that evaluates: table, lists, entries, super blocks a row.
     void set_arguments(cl::Kernel& kernel, cl_uint& first) const;
 
     /// The event after which the lists are free again.
@@ -54,16 +57,15 @@ private:
     void make_room(std::uint32_t supers);
 
     Device device_;
-    std::uint32_t decals_ = 0, rooms_for_ = 0, capacity_ = 0, limit_ = 0, supers_a_row_ = 0, supers_ = 0;
+    std::uint32_t rows_ = 0, rooms_for_ = 0, capacity_ = 0, limit_ = 0, supers_a_row_ = 0, supers_ = 0;
     std::size_t group_ = 1;
     std::vector<std::uint32_t> numbers_;
     cl::Kernel tiles_kernel_, parents_kernel_, supers_kernel_, lists_kernel_;
-    cl::Buffer projectors_, boxes_, bounds_, groups_, axes_;
+    cl::Buffer table_, boxes_, bounds_, groups_, axes_;
     std::array<cl::Buffer, 3> tile_bounds_, lists_;  ///< of tiles, blocks, super blocks
     cl::Buffer entries_, hits_, used_;
     std::vector<cl::Event> made_, last_use_;  ///< the lists; and what reads them
     std::uint64_t table_bytes_ = 0, room_bytes_ = 0;
-    bool fp64_ = false;
 };
 
 }  // namespace wrinkle

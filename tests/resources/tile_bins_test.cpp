@@ -1,6 +1,6 @@
 // Bins of decals: no decal is missing from the list of a tile that it touches, and few are listed where they do not
 // touch.
-#include "resources/decal_bins.h"
+#include "resources/tile_bins.h"
 
 #include <set>
 
@@ -61,14 +61,14 @@ void expect_none_lost(const std::string& what, const HostFrame& frame, const Sce
     EXPECT_EQ(found.lost, 0u) << what;
 }
 
-TEST(DecalBins, LoseNothingOnSurfaces) {
+TEST(TileBins, LoseNothingOnSurfaces) {
     const HostFrame frame = small_frame();
     for (unsigned seed = 1; seed <= 3; ++seed)
         expect_none_lost(fmt::format("on surfaces, seed {}", seed), frame,
                          table_scene(on_surfaces(frame, 500, 0.003, 2, seed)));
 }
 
-TEST(DecalBins, LoseNothingUnderOtherCameras) {
+TEST(TileBins, LoseNothingUnderOtherCameras) {
     for (const Size size : {Size{37, 23}, Size{300, 131}, Size{5, 40}}) {
         HostFrame parallel(plane_frame(orthographic_camera(), size, normalize(V{0.1, -0.2, 1})), orthographic_camera());
         expect_none_lost("parallel", parallel, table_scene(on_surfaces(parallel, 200, 0.01, 3, 7)));
@@ -78,7 +78,7 @@ TEST(DecalBins, LoseNothingUnderOtherCameras) {
     }
 }
 
-TEST(DecalBins, LoseNothingInHardPlaces) {
+TEST(TileBins, LoseNothingInHardPlaces) {
     const HostFrame frame = small_frame();
     const reference::Frame<double> decoder({}, frame.frame.size, frame.frame.camera, frame.planes());
     const V eye = decoder.rays().eye();
@@ -108,7 +108,7 @@ TEST(DecalBins, LoseNothingInHardPlaces) {
         for (const float value : values) ASSERT_TRUE(std::isfinite(value)) << name;
 }
 
-TEST(DecalBins, LoseNothingThatParallaxesMoveThere) {
+TEST(TileBins, LoseNothingThatParallaxesMoveThere) {
     const HostFrame frame = small_frame();
     const HostFrame parallel(plane_frame(orthographic_camera(), {300, 131}, normalize(V{0.1, -0.2, 1})),
                              orthographic_camera());
@@ -125,7 +125,7 @@ TEST(DecalBins, LoseNothingThatParallaxesMoveThere) {
         }
 }
 
-TEST(DecalBins, ShareParentsListsWhenThereIsNoRoom) {
+TEST(TileBins, ShareParentsListsWhenThereIsNoRoom) {
     const HostFrame frame = small_frame();
     const Scene scene = table_scene(on_surfaces(frame, 300, 0.05, 1, 3));
     const Pixels plenty = evaluate_on(frame, scene);
@@ -137,7 +137,7 @@ TEST(DecalBins, ShareParentsListsWhenThereIsNoRoom) {
     }
 }
 
-TEST(DecalBins, ListFewThatDoNotTouch) {
+TEST(TileBins, ListFewThatDoNotTouch) {
     const HostFrame frame(plane_frame(test_camera(), {480, 270}, normalize(V{0.1, -0.2, 1})), test_camera());
     ScatterOptions options;
     options.count = 400;

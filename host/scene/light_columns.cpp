@@ -1,0 +1,83 @@
+#include "scene/light_columns.h"
+
+#include "scene/column_values.h"
+
+namespace wrinkle::scene {
+namespace {
+
+using Row = Light;
+
+std::string range_of(double value, std::optional<double>& out) {
+    double range = 0;
+    std::string problem = number(value, range, positive);
+    if (problem.empty()) out = range;
+    return problem;
+}
+
+std::string angle(double value, double& radians) {
+    std::string problem = number(value, value, degrees);
+    if (problem.empty()) radians = to_radians(value);
+    return problem;
+}
+
+std::string kind_of(std::string_view field, LightKind& out) {
+    const bool point = field == "point";
+    if (!point && field != "spot")
+        return "must be one of \"point\", \"spot\"; lights of other kinds are [[light]] of the scene";
+    out = point ? LightKind::point : LightKind::spot;
+    return {};
+}
+
+#define ANGLE(NAME, MEMBER)                                                                                    \
+    {                                                                                                          \
+        NAME, NAME, 0, Field::number, [](std::string_view f, Light& l) { return angle(parsed(f), l.MEMBER); }, \
+            [](double value, Light& l) { return angle(value, l.MEMBER); },                                     \
+            [](const Light& l) { return number_held(to_degrees(l.MEMBER), degrees); },                         \
+            [](const Light& l) { return fmt::format("{}", to_degrees(l.MEMBER)); }                             \
+    }
+
+// The columns of the position come first: they are the ones that have to be there.
+constexpr Column<Light> columns[] = {
+    VECTOR("x", "y", "z", "position", position, any_number, any_number),
+    {"kind", "kind", 0, Field::name, [](std::string_view f, Light& l) { return kind_of(f, l.kind); }, nullptr,
+     [](const Light& l) {
+         LightKind ignored{};
+         return kind_of(l.kind == LightKind::point ? "point" : l.kind == LightKind::spot ? "spot" : "", ignored);
+     },
+     [](const Light& l) { return std::string(l.kind == LightKind::point ? "point" : "spot"); }},
+    VECTOR("r", "g", "b", "color", color, not_negative, not_negative),
+    NUMBER("intensity", intensity, not_negative),
+    {"range", "range", 0, Field::number, [](std::string_view f, Light& l) { return range_of(parsed(f), l.range); },
+     // Arrays of numbers cannot leave a field empty, so NaN stands for no range there.
+     [](double value, Light& l) { return std::isnan(value) ? std::string{} : range_of(value, l.range); },
+     [](const Light& l) { return number_held(l.range.value_or(1), positive); },
+     [](const Light& l) { return l.range ? fmt::format("{}", *l.range) : std::string{}; }},
+    VECTOR("direction_x", "direction_y", "direction_z", "direction", direction, any_number, any_number),
+    ANGLE("inner_angle", inner_angle),
+    ANGLE("outer_angle", outer_angle),
+};
+
+void check_together(const Light& light, const Wrong& wrong) {
+    if (!light.picture.empty() || !light.diffuse.empty() || !light.specular.empty())
+        wrong({}, "a light of a table has no picture of its own; make it a [[light]] of the scene");
+    if (light.kind != LightKind::spot) return;
+    if (light.direction == Vec3{})
+        wrong({"direction_x", "direction_y", "direction_z"}, "must not be zero; it is the way the light travels");
+    if (!(light.inner_angle < light.outer_angle))
+        wrong({"inner_angle", "outer_angle"},
+              fmt::format("must leave inner_angle ({:.4g}) less than outer_angle ({:.4g} degrees from the axis)",
+                          to_degrees(light.inner_angle), to_degrees(light.outer_angle)));
+}
+
+}  // namespace
+
+RowKind<Light> light_rows() {
+    return {.name = "light",
+            .columns = columns,
+            .required = 3,
+            .bytes = 900,  // a row, what kernels get of it, and the bins that it lies in
+            .begin = [](Light& light, std::uint32_t) { light.kind = LightKind::point; },
+            .together = check_together};
+}
+
+}  // namespace wrinkle::scene
