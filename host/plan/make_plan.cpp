@@ -112,7 +112,9 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         section.stage = stage;
         sections.push_back(std::move(section));
     };
+    if (spreads_by_curvature(emitter)) first.insert({"dn_dx", "dp_dx"});
     add(emit_decode(emitter, first, mapped), 0);
+    if (spreads_by_curvature(emitter)) add(emit_curvature(), 0);
     bool bumped = false, derivatives = first.contains("dp_dx");
     for (std::size_t s = 0; s < stages.size(); ++s) {
         Stage& stage = stages[s];

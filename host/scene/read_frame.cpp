@@ -190,6 +190,7 @@ void read_filter(Table& table, Filter& out) {
     table.read("taps", out.taps, 1, 64);
     table.compiled_in("taps", std::string(out.taps > 1 ? "several" : "1"));
     table.choose("light", out.light_mean, {{"taps", false}, {"mean", true}});
+    table.read("curvature", out.curvature);
     table.finish();
 }
 

@@ -27,6 +27,7 @@ struct Filter {
     /// round.
     int taps = 16;
     bool light_mean = false;  ///< light falls on the mean normal, made rougher, instead of on every point
+    bool curvature = false;   ///< roughness and covariance also show how the base normal turns within a pixel
 };
 
 /// How EXR files are compressed: 16 or 1 rows at a time without loss, lossy, or not at all.

@@ -32,6 +32,11 @@ TEST_F(BadScene, Syntax) {
     EXPECT_EQ(problems(std::string("a = \0 1", 7)).size(), 1u);
 }
 
+TEST_F(BadScene, Filters) {
+    expect_problem_with("[filter]\ncurvature = 3\n", 6, {"curvature", "[filter]", "true or false"});
+    expect_problem_with("[filter]\ncurvatures = true\n", 6, {"did you mean \"curvature\"?"});
+}
+
 TEST_F(BadScene, Budgets) {
     expect_problem_with("[budget]\nsample = 10\n", 5, {"[budget]", "max_error"});
     for (const char* value : {"0", "-0.1", "181", "inf", "nan", "\"small\""})

@@ -125,6 +125,7 @@ specular = "lamp_specular"
 
 [filter]
 taps = 8
+curvature = true
 light = "mean"
 
 [output]

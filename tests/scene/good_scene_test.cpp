@@ -52,7 +52,7 @@ TEST_F(GoodScene, LightingAndOutput) {
     EXPECT_TRUE(output.surface_gradient && output.dp_dx && output.dp_dy && output.marked);
     EXPECT_TRUE(output.roughness && output.slope_covariance);
     EXPECT_EQ(scene.filter.taps, 8);
-    EXPECT_TRUE(scene.filter.light_mean);
+    EXPECT_TRUE(scene.filter.light_mean && scene.filter.curvature);
     EXPECT_TRUE(output.passthrough && output.half && output.condition);
     EXPECT_EQ(scene.budget.max_error, 0.05);
     EXPECT_EQ(scene.budget.sample, 1000);
