@@ -34,6 +34,7 @@ struct Picture {
     std::array<const float*, 3> planes{};
     PngEncoding encoding = PngEncoding::linear;
     std::array<std::vector<float>, 3> made{};  ///< planes of its own
+    bool keeps_brightest = false;              ///< when it shrinks: a single mark is no mean of its neighbours
 };
 
 /// "N.x" with the parts of `axes`; nothing where one is missing.
@@ -64,7 +65,7 @@ Picture in_colors(const std::vector<float>& marked) {
                 for (std::size_t k = 0; k < 3; ++k)
                     colors[bits][k] = static_cast<float>(rgb >> (16 - 8 * k) & 255) / 255.0f;
             }
-    Picture out;
+    Picture out{.keeps_brightest = true};
     for (std::size_t k = 0; k < 3; ++k) {
         out.made[k].resize(marked.size());
         for (std::size_t i = 0; i < marked.size(); ++i) out.made[k][i] = colors[static_cast<int>(marked[i]) & 31][k];
@@ -118,8 +119,27 @@ private:
     int descriptor_;
 };
 
-/// Interleaved bytes, every pixel the mean of `step` x `step` of the picture's, those at the right and lower edge of
-/// what there is.
+/// A pixel of the picture made `step` times smaller: the mean of those at (x, y) times the step, or the brightest of
+/// them. At the right and lower edge, of those that there are.
+std::array<float, 3> shrunk(const Picture& picture, Size size, std::uint32_t x, std::uint32_t y, std::uint32_t step) {
+    std::array<float, 3> sum{}, brightest{};
+    float count = 0, most = 0;
+    for (std::uint32_t v = y * step; v < std::min((y + 1) * step, size.height); ++v)
+        for (std::uint32_t u = x * step; u < std::min((x + 1) * step, size.width); ++u, ++count) {
+            std::array<float, 3> pixel{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float value = picture.planes[k][std::size_t{v} * size.width + u];
+                pixel[k] = std::isfinite(value) ? value : 0;
+                sum[k] += pixel[k];
+            }
+            if (const float light = pixel[0] + pixel[1] + pixel[2]; light > most) most = light, brightest = pixel;
+        }
+    if (picture.keeps_brightest) return brightest;
+    for (float& value : sum) value /= count;
+    return sum;
+}
+
+/// Interleaved bytes of the picture, `step` times smaller.
 std::vector<std::uint8_t> bytes_of(const Picture& picture, const LookImage& image, std::uint32_t step) {
     const std::uint32_t width = (image.size.width + step - 1) / step, height = (image.size.height + step - 1) / step;
     const auto factor = static_cast<float>(std::exp2(image.exposure));
@@ -127,15 +147,8 @@ std::vector<std::uint8_t> bytes_of(const Picture& picture, const LookImage& imag
     out.reserve(std::size_t{3} * width * height);
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x)
-            for (const float* plane : picture.planes) {
-                float sum = 0, count = 0;
-                for (std::uint32_t v = y * step; v < std::min((y + 1) * step, image.size.height); ++v)
-                    for (std::uint32_t u = x * step; u < std::min((x + 1) * step, image.size.width); ++u) {
-                        const float value = plane[std::size_t{v} * image.size.width + u];
-                        sum += std::isfinite(value) ? value : 0, ++count;
-                    }
-                out.push_back(static_cast<std::uint8_t>(png_value(sum / count, picture.encoding, factor) * 255 + 0.5f));
-            }
+            for (const float value : shrunk(picture, image.size, x, y, step))
+                out.push_back(static_cast<std::uint8_t>(png_value(value, picture.encoding, factor) * 255 + 0.5f));
     return out;
 }
 
