@@ -65,8 +65,9 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
             lights, diffuse ? 1 : 0, specular ? 1 : 0);
     };
     if (emitter.scene.lighting.relight != Relight::ratio)
-        return {{"lit",
-                 with_table("wr_light_surface({p}, {n}, base, v, albedo, {roughness}, lighting, lights)", true, true)}};
+        return {
+            {"lit", fmt::format("wr_light_surface({{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights{})",
+                                table ? ", light_table, light_tile, valid" : "")}};
     std::vector<LitTerm> terms{{"lit_sky", "wr_sky(lighting, {n}, base)"}};
     const bool apart = specular_apart(emitter);
     const std::size_t last = pictures_of(emitter.scene.lighting).size() + (apart ? 1 : 0);

@@ -11,7 +11,7 @@ namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 15 * sizeof(double) &&
+static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 16 * sizeof(double) &&
                   sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 35 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 

@@ -33,13 +33,11 @@ TEST(LightTable, LosesNoLightUnderOtherCameras) {
 
 TEST(LightTable, LosesNoLightWhereParallaxesMovePoints) {
     const HostFrame frame = small_frame();
-    for (const auto& [name, layers] : parallax_stacks()) {
-        if (name != "carved" && name != "resolved, then raised") continue;
-        Scene scene = lit_scene(lights_around(positions(frame, layers), 200, 0.05, 0.3, 8));
-        scene.layers = layers;
-        scene = with_own_names(std::move(scene));
-        expect_within(name, lit_error(evaluate_on(frame, scene), Truth(frame, scene)), {1e-5, 1e-3, 5e-2}, "relative");
-    }
+    const auto [name, layers] = parallax_stacks().back();
+    Scene scene = lit_scene(lights_around(positions(frame, layers), 200, 0.05, 0.3, 8));
+    scene.layers = layers;
+    scene = with_own_names(std::move(scene));
+    expect_within(name, lit_error(evaluate_on(frame, scene), Truth(frame, scene)), {1e-5, 1e-3, 5e-2}, "relative");
 }
 
 TEST(LightTable, ListsEveryLightThatReachesATile) {
