@@ -125,34 +125,53 @@ def quoted(text):
 MOST_PICTURES = 16  # of lights, that wrinkle takes apart in one picture
 
 
-def light_toml(item, beauty, light_groups):
-    """A [[light]]. Watts become radiant intensity: P / 4 pi. With light groups it has a picture of its own."""
+def light_values(item, beauty, light_groups):
+    """The keys of a [[light]]. Watts become radiant intensity: P / 4 pi. With light groups it has a picture of its own."""
     lamp = item.data
+    values = {}
     energy = lamp.energy * 2 ** getattr(lamp, "exposure", 0)
     color = list(lamp.color)
     if getattr(lamp, "use_temperature", False):
         color = [c * t for c, t in zip(color, lamp.temperature_color)]
     along = [-item.matrix_world.normalized().col[2][k] for k in range(3)]
-    lines = ["[[light]]                                   # " + item.name]
     if lamp.type == "SUN":
-        lines += ['kind = "sun"', "direction = " + numbers(along), "intensity = %.6g" % energy]
+        values.update(kind="sun", direction=along, intensity=energy)
     elif lamp.type in ("POINT", "SPOT", "AREA"):
-        lines += [
-            'kind = "%s"' % ("spot" if lamp.type == "SPOT" else "point"),
-            "position = " + numbers(item.matrix_world.translation),
-            "intensity = %.6g" % (energy / (4 * math.pi)),
-        ]
+        values.update(
+            kind="spot" if lamp.type == "SPOT" else "point",
+            position=list(item.matrix_world.translation),
+            intensity=energy / (4 * math.pi),
+        )
         if lamp.type == "SPOT":
             outer = math.degrees(lamp.spot_size) / 2
-            lines += [
-                "direction = " + numbers(along),
-                "inner_angle = %.6g" % (outer * math.sqrt(1 - min(lamp.spot_blend, 0.99))),
-                "outer_angle = %.6g" % min(outer, 89.0),
-            ]
-    lines.append("color = " + numbers(color))
+            values.update(
+                direction=along,
+                inner_angle=outer * math.sqrt(1 - min(lamp.spot_blend, 0.99)),
+                outer_angle=min(outer, 89.0),
+            )
+    values["color"] = color
     if light_groups:
-        lines.append("picture = " + quoted("%s.Combined_%s" % (beauty, item.name)))
+        values["picture"] = "%s.Combined_%s" % (beauty, item.name)
+    return values
+
+
+def light_toml(item, beauty, light_groups):
+    lines = ["[[light]]                                   # " + item.name]
+    for key, value in light_values(item, beauty, light_groups).items():
+        text = quoted(value) if isinstance(value, str) else numbers(value) if isinstance(value, list) else "%.6g" % value
+        lines.append("%s = %s" % (key, text))
     return "\n".join(lines)
+
+
+def lamps_of(scene):
+    return [item for item in scene.objects if item.type == "LIGHT" and not item.hide_render]
+
+
+def lights_json(scene, light_groups):
+    """What `lights = "frame.####.lights.json"` of [lighting] reads: the lights of one frame, as [[light]]s."""
+    beauty = beauty_layer(scene).name
+    lamps = enumerate(lamps_of(scene))
+    return {"lights": [light_values(item, beauty, light_groups and place < MOST_PICTURES) for place, item in lamps]}
 
 
 def world_radiance(world):
@@ -347,7 +366,7 @@ def scene_toml(scene, pattern, layers, untranslated, notes, light_groups):
     ambient, plain = world_radiance(scene.world)
     if not plain:
         notes = notes + ["the world is textured: ambient is a guess"]
-    lights = [item for item in scene.objects if item.type == "LIGHT" and not item.hide_render]
+    lights = lamps_of(scene)
     notes = notes + ["%s is an area light, which becomes a point" % i.name for i in lights if i.data.type == "AREA"]
     text = ["# Written by wrinkle_export.py of Blender " + bpy.app.version_string]
     text += ["# note: " + note for note in notes]
@@ -377,6 +396,8 @@ scale = 0.02                                # metres of height""")
         text.append("ambient = " + numbers(ambient))
     elif not lights:
         text.append("# no lights were found: they are fitted to the picture")
+    if lights and "#" in pattern:
+        text.append("# lights = %s   # in place of each [[light]], where lights move" % quoted(pattern + ".lights.json"))
     for place, item in enumerate(lights):
         text.append("\n" + light_toml(item, beauty, light_groups and place < MOST_PICTURES))
     return "\n".join(text) + "\n"
@@ -404,6 +425,8 @@ def export(scene, folder, frames, light_groups=False, keep_bumps=True, render=Fa
         stem = os.path.join(folder, "frame.%04d" % frame)
         with open(stem + ".camera.json", "w") as out:
             json.dump(camera_json(scene, bpy.context.evaluated_depsgraph_get()), out, indent=1)
+        with open(stem + ".lights.json", "w", encoding="utf-8") as out:
+            json.dump(lights_json(scene, light_groups), out, indent=1)
         if render:
             scene.render.filepath = stem + ".exr"
             bpy.ops.render.render(write_still=True, scene=scene.name)

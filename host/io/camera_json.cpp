@@ -1,14 +1,14 @@
 #include "io/camera_json.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/names.h"
-#include "base/only_errors.h"
-#include "base/text_file.h"
 #include "io/camera_check.h"
+#include "io/json_file.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::io {
@@ -16,31 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-json parse_json(const std::filesystem::path& file) {
-    const std::string content = read_text(file, "a camera file");
-    try {
-        auto value = json::parse(content);
-        if (value.is_object()) return value;
-    } catch (const json::out_of_range& error) {
-        const std::string text = error.what();  // "[json.exception...] number overflow parsing '1e999'"
-        const auto begin = text.find('\''), end = text.rfind('\'');
-        const std::string number = begin < end ? text.substr(begin + 1, end - begin - 1) : "";
-        const auto place =
-            content.begin() + static_cast<std::ptrdiff_t>(std::min(content.find(number), content.size()));
-        throw Error(fmt::format("{}: not a camera file: a number at line {} is out of range: {}", file.string(),
-                                1 + std::count(content.begin(), place, '\n'), quote(number)));
-    } catch (const json::exception& error) {
-        const std::string text = error.what();  // "[json.exception...] parse error at line 3, column 5: ..."
-        const auto at = text.find("at line");
-        throw Error(fmt::format("{}: not a camera file: the JSON is malformed{}", file.string(),
-                                at == std::string::npos ? "" : " " + text.substr(at)));
-    }
-    throw Error(
-        fmt::format("{}: not a camera file: expected {{\"width\", \"height\", \"view\", \"proj\"}}", file.string()));
-}
-
 json parse(const std::filesystem::path& file) {
-    return only_errors(file.c_str(), [&] { return parse_json(file); });
+    return read_json_object(file, "a camera file", "{\"width\", \"height\", \"view\", \"proj\"}");
 }
 
 Mat4 matrix(const json& camera, const char* key, const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 
 #include "base/names.h"
 #include "base/text_file.h"
+#include "scene/light_json.h"
 #include "scene/readers.h"
 #include "scene/scene_text.h"
 #include "scene/set_values.h"
@@ -35,16 +36,19 @@ void read_layers(Table& root, LayerKinds kinds, std::vector<Layer>& out) {
 void read_lights(Table& root, Lighting& out) {
     bool relight_is_sound = true;
     std::uint32_t line = root.line_of("lighting");
-    if (auto table = root.table("lighting", "[lighting]")) {
-        read_lighting(*table, out);
-        relight_is_sound = !table->is_bad("relight") && !table->is_bad("lights");
-        line = table->line_of("relight");
-    }
+    std::optional<Table> lighting = root.table("lighting", "[lighting]");
+    if (lighting) read_lighting(*lighting, out);
     std::vector<Table> lights = root.tables("light", out.lights.size());
     out.lights.resize(lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) read_light(lights[i], out.lights[i]);
+    if (lighting) {
+        if (!root.visits() && !lighting->is_bad("lights") && is_json(out.table_file))
+            read_light_json(*lighting, "lights", out.table_file, out.lights);
+        relight_is_sound = !lighting->is_bad("relight") && !lighting->is_bad("lights");
+        line = lighting->line_of("relight");
+    }
     if (!relight_is_sound || root.is_bad("light") || root.is_bad("lighting")) return;
-    const bool any = !lights.empty() || (out.table && !out.table->empty());
+    const bool any = !out.lights.empty() || (out.table && !out.table->empty());
     if (out.relight == Relight::off && !lights.empty() && !root.visits())
         root.document().problems.add(lights.front().line(),
                                      "[[light]] has no effect while relighting is off; set relight = \"lit\" or "

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "scene/kinds.h"
 #include "scene/light_columns.h"
+#include "scene/light_json.h"
 #include "scene/readers.h"
 #include "scene/row_reader.h"
 #include "wrinkle/error.h"
@@ -113,6 +114,7 @@ void read_light_table(Table& table, Lighting& out) {
     if (out.relight == Relight::off && !table.is_bad("relight"))
         table.complain("lights",
                        "has no effect while relighting is off; set relight = \"lit\" or \"ratio\", or remove it");
+    if (is_json(out.table_file)) return;  // lights beside each [[light]], which are read first
     try {
         out.table = std::make_shared<const std::vector<Light>>(load_lights(out.table_file));
     } catch (const Error& error) { table.complain("lights", fmt::format("cannot be used:\n{}", error.what())); }

@@ -59,7 +59,7 @@ struct Lighting {
     /// Points and spots beside these, as many as you like: where they have ranges, the cost follows how many reach a
     /// pixel. They have no pictures of their own.
     std::shared_ptr<const std::vector<Light>> table{};
-    std::filesystem::path table_file{};  ///< that the table is from, for messages; empty for one made in code
+    std::filesystem::path table_file{};  ///< that the table, or more lights, are from; empty for those made in code
     std::optional<Mask> leave{};         ///< where the picture stays as it is; a mask without a texture
 };
 
