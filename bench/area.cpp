@@ -160,6 +160,10 @@ std::vector<Source> sources() {
             {"noise", layer(sum, 0.06)},
             {"ridges", layer(ridges, 0.06)},
             {"triplanar", layer(TriplanarLayer{.texture = {.file = kTextures / "rock_height.png"}, .tile = 0.6}, 0.1)},
+            {"volume", layer(VolumeLayer{.file = WRINKLE_SOURCE_DIR "/data/volumes/noise.vdb",
+                                         .grid = "density",
+                                         .transform = {{{8, 0, 0, -4}, {0, 8, 0, -6}, {0, 0, 8, -4}, {0, 0, 0, 1}}}},
+                             0.6)},
             {"decal",
              layer(DecalLayer{.texture = {.file = kTextures / "cracks_height.png"}, .half_size = {2, 4, 0.5}}, 0.2)}};
 }

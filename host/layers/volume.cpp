@@ -33,7 +33,7 @@ void read(scene::Table& table, Layer& layer) {
         else if (is_singular(bump.transform))
             table.complain("transform", "cannot be inverted: its columns are zero or parallel");
     }
-    scene::read_weight_without_levels(table, layer);
+    scene::read_weight(table, layer);
     layer.bump = bump;
 }
 

@@ -25,9 +25,9 @@ TEST_F(VolumeScene, EveryKey) {
     EXPECT_EQ(scene.layers[0].scale, 2);
 }
 
-TEST_F(VolumeScene, FootprintOfItsMask) {
-    EXPECT_FALSE(
-        load_with(volume("footprint = false\nmask = { texture = \"textures/wall.png\" }\n")).layers.at(0).footprint);
+TEST_F(VolumeScene, FootprintChoosesItsLevels) {
+    EXPECT_FALSE(load_with(volume("footprint = false\n")).layers.at(0).footprint);
+    EXPECT_TRUE(load_with(volume("")).layers.at(0).footprint);
 }
 
 TEST_F(VolumeScene, Defaults) {
@@ -50,7 +50,7 @@ TEST_F(VolumeScene, BadValues) {
                         {"\"transform\"", "cannot be inverted"});
     expect_problem_with(volume("transform = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]\n"), 8,
                         {"must be affine"});
-    expect_problem_with(volume("footprint = false\n"), 8, {"\"footprint\"", "no levels of detail"});
+    expect_problem_with(volume("footprint = 2\n"), 8, {"\"footprint\"", "true or false"});
     for (const char* kind : {"\"constant\"\ngradient = [1, 0, 0]", "\"height_channel\"\nchannel = \"dust\""})
         expect_problem_with(fmt::format("[[layer]]\nkind = {}\nfootprint = true\n", kind), 8, {"no levels of detail"});
 }
