@@ -199,6 +199,12 @@ Image load_tiles(const TextureUse& use) {
         if (image.width != width || image.height != height)
             throw Error(fmt::format("{}: {} x {} texels; the other tiles have {} x {}", tile.file.string(), image.width,
                                     image.height, width, height));
+        if (image.channels != all.channels)
+            throw Error(
+                fmt::format("{}: {} means of slopes' products, and the first tile {}; have maketx --bumpslopes "
+                            "write all tiles alike",
+                            tile.file.string(), image.channels == 5 ? "has" : "lacks",
+                            image.channels == 5 ? "lacks them" : "has them"));
         // Slopes are per unit of the texture, which now spans more.
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)

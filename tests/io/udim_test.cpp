@@ -34,5 +34,22 @@ TEST(Udim, TilesBecomeOneImage) {
     expect_mentions(error_of([&] { load_bump(use); }), {"there is no tile"});
 }
 
+TEST(Udim, TilesOfBumpslopesBringTheirProductsAllOrNone) {
+    TempFolder folder;
+    const std::vector<std::string> six{"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"};
+    const auto texel = [](int c, int, int) { return c < 3 ? 0.5f : c == 5 ? -0.25f : 1.0f; };
+    write_exr(folder / "t.1001.exr", 2, 2, six, texel);
+    write_exr(folder / "t.1002.exr", 2, 2, six, texel);
+    const TextureUse use{.file = folder / "t.<UDIM>.exr", .content = Content::slope};
+    const Image slopes = load_bump(use);
+    ASSERT_EQ(slopes.channels, 5);
+    EXPECT_FLOAT_EQ(slopes.at(3, 0, 0), 2 * 2 * 0.5f);  // per texel, of two, and the image spans two textures
+    EXPECT_FLOAT_EQ(slopes.at(3, 0, 2), 4 * 4 * 1.0f);
+    EXPECT_FLOAT_EQ(slopes.at(3, 0, 3), 4 * 2 * 0.25f);
+    EXPECT_FLOAT_EQ(slopes.at(3, 0, 4), 2 * 2 * 1.0f);
+    write_exr(folder / "t.1003.exr", 2, 2, {six.begin(), six.begin() + 3}, texel);
+    expect_mentions(error_of([&] { load_bump(use); }), {"t.1003.exr: lacks means", "maketx --bumpslopes"});
+}
+
 }  // namespace
 }  // namespace wrinkle
