@@ -93,20 +93,21 @@ Section emit_output(Emitter& emitter, bool bumped) {
     }
     if (output.dp_dx) store3("dp_dx", "dp_dx");
     if (output.dp_dy) store3("dp_dy", "dp_dy");
+    const std::string spread = spreads_by_curvature(emitter) ? "wr_add(spread, turning)" : "spread";
+    if (output.slope_covariance || output.roughness) section.reads.insert("spread");
+    if (spreads_by_curvature(emitter)) section.reads.insert("turning");
     if (output.slope_covariance) {
-        section.reads.insert("spread");
         const struct {
             char axis;
             const char* name;
         } parts[] = {{'x', "xx"}, {'y', "xy"}, {'z', "yy"}};
         for (const auto& part : parts)
             store(fmt::format("slope_covariance.{}", part.name),
-                  fmt::format("valid ? spread.{} : (wr_real)(0)", part.axis));
+                  fmt::format("valid ? {}.{} : (wr_real)(0)", spread, part.axis));
     }
     if (output.roughness) {
-        section.reads.insert("spread");
         text += roughness_text(emitter, section);
-        store("roughness", "wr_widened_roughness(roughness, spread)");
+        store("roughness", fmt::format("wr_widened_roughness(roughness, {})", spread));
     }
     if (output.marked) {
         section.reads.insert("marked");

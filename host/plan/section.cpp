@@ -34,6 +34,7 @@ const std::vector<Value>& values() {
         {"g", "wr_vec3", {".x", ".y", ".z"}},
         {"dh_dp", "wr_vec3", {".x", ".y", ".z"}},
         {"spread", "wr_vec3", {".x", ".y", ".z"}},
+        {"turning", "wr_vec3", {".x", ".y", ".z"}},
         {"lit_sky", "wr_vec3", {".x", ".y", ".z"}},
     };
     static const std::vector<Value> with_lights = [] {

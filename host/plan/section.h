@@ -145,9 +145,9 @@ std::string axis_text(const Emitter& emitter);
 bool varies_over_area(const Emitter& emitter, const Layer& layer);
 /// Whether a scene wants to know how the slopes vary over a pixel.
 bool wants_spread(const Emitter& emitter);
-/// Whether the turning of the base normal counts to that.
+/// Whether what is written of that also holds how the base normal turns within a pixel.
 bool spreads_by_curvature(const Emitter& emitter);
-/// Begins the covariance of the slopes with those by which the base normal turns within a pixel.
+/// The covariance of the slopes by which the base normal turns within a pixel.
 Section emit_curvature();
 
 /// Whether the lighting has a table of lights.

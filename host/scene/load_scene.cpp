@@ -106,8 +106,15 @@ void read_scene(Table& root, LayerKinds kinds, Scene& out) {
     if (auto table = root.table("camera", "[camera]", false)) read_camera(*table, out.camera);
     read_layers(root, kinds, out.layers);
     read_lights(root, out.lighting);
-    if (auto table = root.table("filter", "[filter]")) read_filter(*table, out.filter);
+    std::uint32_t curvature = 0;
+    if (auto table = root.table("filter", "[filter]")) {
+        read_filter(*table, out.filter);
+        curvature = table->line_of("curvature");
+    }
     if (auto table = root.table("output", "[output]")) read_output(*table, out.output);
+    if (out.filter.curvature && !out.output.roughness && !out.output.slope_covariance && !root.visits())
+        root.document().problems.add(curvature,
+                                     "curvature has no effect without roughness or slope_covariance in [output]");
     if (auto table = root.table("budget", "[budget]")) read_budget(*table, out.budget);
 }
 

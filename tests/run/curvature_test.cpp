@@ -83,5 +83,25 @@ TEST(Curvature, OfASphereIsTheCovarianceOfItsSlopes) {
     EXPECT_LT(spread.p99, 0.04) << "differences over two pixels, where the sphere turns away";
 }
 
+/// The picture to relight shows the base surface's curvature already.
+TEST(Curvature, LeavesLightAsItIs) {
+    const HostFrame frame = sphere(reference::CameraRays<double>(camera(), kSize));
+    for (const bool mean : {false, true}) {
+        Scene scene;
+        Layer noise;
+        noise.name = "noise", noise.bump = NoiseLayer{.frequency = 3}, noise.scale = 0.02;
+        scene.layers = {noise};
+        scene.lighting.relight = Relight::lit;
+        scene.lighting.lights = {{.direction = {0.3, 0.4, -0.8}}};
+        scene.filter.light_mean = mean;
+        scene.output.roughness = true;
+        const Pixels without = evaluate_area(frame, scene);
+        scene.filter.curvature = true;
+        const Pixels with = evaluate_area(frame, scene);
+        for (const char* part : {"lit.r", "lit.g", "lit.b"}) EXPECT_EQ(with.at(part), without.at(part)) << part;
+        EXPECT_NE(with.at("roughness"), without.at("roughness"));
+    }
+}
+
 }  // namespace
 }  // namespace wrinkle::test

@@ -34,6 +34,7 @@ TEST_F(BadScene, Syntax) {
 
 TEST_F(BadScene, Filters) {
     expect_problem_with("[filter]\ncurvature = 3\n", 6, {"curvature", "[filter]", "true or false"});
+    expect_problem_with("[filter]\ncurvature = true\n", 6, {"no effect", "roughness", "slope_covariance"});
     expect_problem_with("[filter]\ncurvatures = true\n", 6, {"did you mean \"curvature\"?"});
 }
 
