@@ -131,15 +131,18 @@ SlopeLayout slope_layout(const OIIO::ImageSpec& spec, Encoding encoding, SlopeUn
     return layout;
 }
 
-/// A mean square is at least the square of the mean. Halves, which files may hold, round both.
+/// A mean square is at least the square of the mean, but for what lossy compression leaves of both.
 void check_products(const Image& read, const SlopeLayout& at, const std::string& name) {
-    constexpr float kRounding = 4e-3F, kSmallest = 2e-7F;
+    constexpr float kLoss = 0.05F, kSmallest = 2e-7F;
+    constexpr std::size_t kShare = 100;  // one wrong texel of so many is the compression's, too
+    std::size_t wrong = 0;
     const auto check = [&](int x, int y, int mean, int square, const char* channel) {
         const float slope = read.at(x, y, mean), found = read.at(x, y, square);
-        if (found >= slope * slope * (1 - kRounding) - kSmallest) return;
+        if (found >= slope * slope * (1 - kLoss) - kSmallest) return;
+        if (++wrong * kShare <= read.texels.size() / static_cast<std::size_t>(read.channels)) return;
         throw Error(fmt::format(
-            "{}: pixel ({}, {}) from the top left has {:.6g} in {}; that is the mean of the squares of slopes "
-            "whose mean is {:.6g}, so at least {:.6g}: have maketx --bumpslopes write the file anew",
+            "{}: pixel ({}, {}) from the top left has {:.6g} in {}; that is the mean of the "
+            "squares of slopes whose mean is {:.6g}, so at least {:.6g}: have maketx --bumpslopes write the file anew",
             name, x, read.height - 1 - y, found, channel, slope, slope * slope));
     };
     for (int y = 0; y < read.height; ++y)

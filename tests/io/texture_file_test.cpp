@@ -94,13 +94,17 @@ TEST(TextureFile, BumpslopesBringTheirMeansOfProducts) {
     ASSERT_EQ(slopes.channels, 5);
     const float wanted[] = {0.25f * 8, 0.5f * 4, 0.5f * 8 * 8, 0.25f * 8 * 4, 0.75f * 4 * 4};
     for (int c = 0; c < 5; ++c) EXPECT_FLOAT_EQ(slopes.at(3, 1, c), wanted[c]) << c;
-    square = 0.06f;
+    square = 0.05f;
     write_image(folder / "b.exr", {{spec, texel}});
     expect_mentions(error_of([&] { load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture); }),
-                    {"b.exr: pixel (0, 3) from the top left has 0.06 in b3_dhds2", "at least 0.0625", "maketx"});
+                    {"b.exr: pixel (0, 3) from the top left has 0.05 in b3_dhds2", "at least 0.0625", "maketx"});
     // A file without them has its slopes alone.
     write_image(folder / "b.exr", {{make_spec(8, 4, {"b0_h", "b1_dhds", "b2_dhdt"}), texel}});
     EXPECT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture).channels, 2);
+    // A texel or so may be what lossy compression made of it.
+    const auto once = [&](int c, int x, int y) { return c == 3 && (x != 5 || y != 2) ? means[3] : texel(c, x, y); };
+    write_image(folder / "b.exr", {{make_spec(16, 8, spec.channelnames), once}});
+    EXPECT_EQ(load_slopes(folder / "b.exr", Encoding::automatic, SlopeUnit::texture).channels, 5);
 }
 
 TEST(TextureFile, SlopesOfTheWrongChannels) {
