@@ -229,7 +229,7 @@ void check_fits(const TextureHeap& heap, const DeviceInfo& device) {
     const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) / (1 << 20); };
     throw Error(fmt::format(
         "the textures and volumes take {:.1f} MiB together; {} allows {:.1f} MiB in one buffer: use smaller "
-        "ones (crop or resample grids), or another device",
+        "ones (crop or resample grids; footprint = false does without their coarser levels), or another device",
         megabytes(bytes), device.name, megabytes(device.largest_buffer)));
 }
 

@@ -12,6 +12,7 @@
 #include "base/names.h"
 #include "io/volume_file.h"
 #include "resources/volume_levels.h"
+#include "resources/volume_products.h"
 #include "wrinkle/error.h"
 
 #include "layout.h"

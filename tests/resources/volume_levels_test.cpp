@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "resources/volume_products.h"
 #include "tests/reference/volume.h"
 
 namespace wrinkle {
