@@ -59,7 +59,6 @@ Metadata header_of(const Scene& scene, const GBufferReader& reader, bool passthr
 
 std::vector<fs::path> inputs_of(const Scene& scene, const GBufferReader& reader, int frame) {
     std::vector<fs::path> inputs = scene::files_of(layer_kinds(), scene);
-    inputs.push_back(scene.gbuffer.beauty_file);
     for (fs::path& file : inputs) file = frame_path(file, frame);
     inputs.push_back(reader.path());
     return inputs;

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string_view>
 
-#include "base/claim.h"
-#include "base/limits.h"
 #include "base/only_errors.h"
 #include "base/text_file.h"
 #include "io/csv_rows.h"
 #include "io/csv_table.h"
 #include "io/npy_records.h"
+#include "scene/row_claim.h"
 #include "scene/row_reader.h"
 #include "scene/row_toml.h"
 #include "wrinkle/decal_layers.h"
@@ -20,21 +19,15 @@
 namespace wrinkle::scene {
 namespace {
 
-/// Asks for the memory of all rows before the first of them takes any. Rows of a few bytes each become far more memory
-/// than their file is long; beyond what real tables come to, somebody has to have allowed it.
-template <class Row>
-void check_rows(const std::filesystem::path& file, const RowKind<Row>& kind, std::size_t rows,
-                std::uint64_t file_bytes) {
-    constexpr double kUnasked = 256e6, kRowOverText = 32;
-    const double wanted = kind.bytes * static_cast<double>(rows);
-    const std::string what = fmt::format("a table of {} {}s", rows, kind.name);
-    check_memory(file.string(), wanted, what);
-    const double table = sizeof(Row) * static_cast<double>(rows), bytes = static_cast<double>(file_bytes);
-    if (table > kUnasked + kRowOverText * bytes && !is_memory_set())
-        throw Error(
-            fmt::format("{}: {} in a file of {} would take {} of memory; if it is meant, allow that by "
-                        "--memory or WRINKLE_MEMORY, in GB",
-                        file.string(), what, bytes_text(bytes), bytes_text(wanted)));
+/// The most rows that a CSV text can hold: its lines but for those that are empty or a comment.
+std::size_t rows_of_csv(std::string_view text) {
+    std::size_t rows = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        rows += std::string_view("\r\n#").find(text[at]) == std::string_view::npos ? 1 : 0;
+        const std::size_t end = text.find('\n', at);
+        at = end == std::string_view::npos ? text.size() : end + 1;
+    }
+    return rows;
 }
 
 template <class Row>
@@ -55,7 +48,7 @@ std::vector<Row> load_csv(const std::filesystem::path& file, const RowKind<Row>&
         }
     };
     const std::string text = read_text(file, fmt::format("a table of {}s", kind.name), kAnyLength);
-    check_rows(file, kind, static_cast<std::size_t>(std::ranges::count(text, '\n')), text.size());
+    check_rows(file, claim_of(kind), rows_of_csv(text), text.size());
     io::read_csv_rows(text, file.string(), io::CsvComments::lines, take);
     if (reader.header().empty())
         reader.complain_of_file(0, "holds no table; its first line names the columns, at least x,y,z");
@@ -65,7 +58,7 @@ std::vector<Row> load_csv(const std::filesystem::path& file, const RowKind<Row>&
 template <class Row>
 std::vector<Row> load_npy(const std::filesystem::path& file, const RowKind<Row>& kind) {
     const io::NpyRecords records(file);
-    check_rows(file, kind, records.rows(), records.file_bytes());
+    check_rows(file, claim_of(kind), records.rows(), records.file_bytes());
     RowReader<Row> reader(file.string(), kind, TableForm::npy);
     std::vector<std::string> names;
     for (const io::NpyRecords::Field& field : records.fields()) names.push_back(field.name);

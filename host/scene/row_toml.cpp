@@ -12,6 +12,7 @@
 
 #include "base/names.h"
 #include "base/text_file.h"
+#include "scene/row_claim.h"
 #include "scene/row_reader.h"
 #include "scene/toml.h"
 #include "wrinkle/decal_layers.h"
@@ -168,6 +169,14 @@ std::string toml_value(const Column<Row>& column, const Row& row) {
     return out.str();
 }
 
+/// The most rows that a text can hold.
+std::size_t rows_of_toml(std::string_view text, const char* kind) {
+    const std::string head = fmt::format("[[{}]]", kind);
+    std::size_t rows = 0;
+    for (std::size_t at = text.find(head); at != std::string_view::npos; at = text.find(head, at + head.size())) ++rows;
+    return rows;
+}
+
 }  // namespace
 
 bool is_toml(const std::filesystem::path& file) { return lower(file.extension().string()) == ".toml"; }
@@ -177,6 +186,7 @@ std::vector<Row> load_row_toml(const std::filesystem::path& file, const RowKind<
     const std::string text = read_text(file, fmt::format("a table of {}s", kind.name), kAnyLength),
                       name = file.string();
     RowReader<Row> reader(name, kind, TableForm::toml);
+    check_rows(file, claim_of(kind), rows_of_toml(text, kind.name), text.size());
     const std::vector<Piece> pieces = pieces_of(text, kind.name);
     std::vector<std::vector<Row>> sound(pieces.size());  // rows of pieces without mistakes
     OIIO::parallel_for(std::uint64_t{0}, std::uint64_t{pieces.size()}, [&](std::uint64_t i) {

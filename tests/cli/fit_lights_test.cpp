@@ -19,6 +19,10 @@ TEST(FitLights, PrintsLightsThatASceneCanUse) {
     place.write_scene(tilt + ratio + printed.out, frame, camera);
     EXPECT_EQ(place.run("explain scene.toml --no-source").code, 0);
     expect_failed(place.run("fit-lights scene.toml -o scene.toml"), {"scene.toml"});
+    write_text(place / "lamps.csv", "x,y,z\n0,0,3\n");
+    place.write_scene(tilt + ratio + "lights = \"lamps.csv\"\n", frame, camera);
+    expect_failed(place.run("fit-lights scene.toml -o lamps.csv"), {"lamps.csv"});
+    EXPECT_EQ(read_text(place / "lamps.csv"), "x,y,z\n0,0,3\n");
 }
 
 TEST(FitLights, ARunWithoutLightsFitsThemAndSaysSo) {

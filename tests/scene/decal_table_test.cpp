@@ -83,7 +83,12 @@ TEST_F(DecalTable, TakesFarMoreMemoryThanItsFileOnlyWhenAllowed) {
     set_limits({.memory = std::uint64_t{2} << 30, .sandbox = {}, .volume_reader = {}});
     expect_refused(text,
                    {"decals.csv: a table of 3000001 decals would take 3.9 GB", "the limit of --memory is 2.1 GB"});
+    text = "\n";
+    for (int i = 0; i < 200'000; ++i) text += "[[decal]]\ncenter=[1,2,3]\n";
+    set_limits({.memory = 1, .sandbox = {}, .volume_reader = {}});
+    DecalFolder::expect_refused("decals.toml", text, {"decals.toml: a table of 200000 decals would take 260 MB"});
     set_limits({});
+    EXPECT_EQ(read("decals.csv", "x,y,z\n" + std::string(3'000'000, '\n') + "1,2,3\n").size(), 1u) << "empty lines";
 }
 
 TEST_F(DecalTable, ReadsBackWhatWasSaved) {
