@@ -56,7 +56,7 @@ typedef struct {
     WR_SCALAR kind;                 // 0 sun, 1 point, 2 spot
     WR_SCALAR color[3];             // times intensity; a sun's is the irradiance, the others' falls with distance^2
     WR_SCALAR position[3];          // relative to the eye, metres; not of a sun
-    WR_SCALAR fade;                 // 1 / range^2, where it has faded away; 0: it reaches everywhere
+    WR_SCALAR fade;                 // 1 / range^2, the range being where it has faded away; 0: it reaches everywhere
     WR_SCALAR to_light[3];          // unit, world, against the way the light travels; of a sun and a spot
     WR_SCALAR cos_inner, cos_outer; // of a spot: cosine of the angle up to which light is full, and from which none
     // Numbers of the pictures that show what of this light is diffuse, and what is specular, from 1 on; 0: none does

@@ -79,7 +79,10 @@ std::size_t InputFile::read_at(std::uint64_t offset, void* to, std::size_t size)
     return filled;
 }
 
-void InputFile::read_ahead() const { ::posix_fadvise(descriptor_, 0, 0, POSIX_FADV_WILLNEED); }
+void InputFile::read_ahead() const {
+    constexpr off_t most = off_t{512} << 20;
+    ::posix_fadvise(descriptor_, 0, most, POSIX_FADV_WILLNEED);
+}
 
 std::string InputFile::read_all() const {
     // The size is a hint only: files grow, and those of /proc have none.

@@ -34,7 +34,8 @@ public:
     /// disk fails.
     std::size_t read_at(std::uint64_t offset, void* to, std::size_t size) const;
 
-    /// Asks the system to fetch all of it from its disk or server, and does not wait for that.
+    /// Asks the system to fetch it from its disk or server, and does not wait for that. Of a very large file, of which
+    /// few parts may be wanted, its first half gigabyte.
     void read_ahead() const;
 
     /// All of it. Throws Error.

@@ -1,8 +1,5 @@
-#include "wrinkle/decal_layers.h"
-
-#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/table_fuzz.h"
 
 WRINKLE_HARNESS(decal_npy_fuzz)(const std::uint8_t* data, std::size_t size) {
-    return wrinkle::fuzz::with_file(data, size, ".npy",
-                                    [](const std::filesystem::path& file) { wrinkle::load_decals(file, 3); });
+    return wrinkle::fuzz::with_tables(data, size, ".npy");
 }

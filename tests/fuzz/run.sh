@@ -48,8 +48,8 @@ seeds_of "$name" | while read -r seed; do cp -n "$seed" "$corpus/$(sha1sum <"$se
 [ ! -f "$here/corpus/$name.zip" ] || python3 -m zipfile -e "$here/corpus/$name.zip" "$corpus"
 log=$folder/finds/$name.log
 longest=$(longest_of "$name")
-# Twenty times the input, and 256 MB, are what a reader may allocate at once.
-if ! "$folder/tests/fuzz/$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 \
+# Twenty times the input, and 256 MB, are what a reader may allocate at once. No input takes 5 seconds, unless the machine is busy.
+if ! "$folder/tests/fuzz/$name" "$corpus" -max_total_time="$seconds" -timeout="${WRINKLE_FUZZ_TIMEOUT:-5}" -rss_limit_mb=2048 \
     -malloc_limit_mb=$((256 + 20 * longest / 1000000)) -max_len="$longest" -artifact_prefix="$folder/finds/$name-" \
     -print_final_stats=1 >"$log" 2>&1; then
     tail -n 60 "$log"
