@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 
+#include "base/imath.h"
 #include "base/vec.h"
 #include "run/open_frame.h"
 #include "wrinkle/error.h"
@@ -114,6 +116,33 @@ private:
     std::map<std::string, std::vector<float>> planes_;
 };
 
+/// Where pixels are in the world: as the frame says, or by its depth as a pinhole camera sees it; else nobody knows.
+class Places {
+public:
+    Places(const ReadRows& rows, const Frame& frame)
+        : rows_(rows), width_(frame.size.width), ray_depth_(frame.ray_depth) {
+        if (frame.planes.contains("depth")) rays_ = pinhole_rays(frame.camera, frame.size);
+    }
+
+    /// Of pixel i of rows that begin with `first`.
+    std::optional<Vec3> at(std::size_t i, std::uint32_t first) const {
+        if (!rays_) {
+            if (!rows_.has("position.x")) return {};
+            return rows_.vec("position", "xyz", i);
+        }
+        const double x = static_cast<double>(i % width_) + 0.5, y = static_cast<double>(first + i / width_) + 0.5;
+        const Imath::V3d along = to_imath(rays_->d0) + x * to_imath(rays_->dx) + y * to_imath(rays_->dy);
+        const double depth = rows_.at("depth", i);
+        return to_array(to_imath(rays_->eye) + depth * (ray_depth_ ? direction(along) : along));
+    }
+
+private:
+    const ReadRows& rows_;
+    std::size_t width_;
+    bool ray_depth_;
+    std::optional<PinholeRays> rays_;
+};
+
 /// What a pixel shows as a surface; nothing where it shows none that tells of lights.
 std::optional<SeenSurface> surface_at(const ReadRows& rows, std::size_t i, const Vec3& albedo_of_scene) {
     SeenSurface out{rows.vec("normal", "xyz", i), rows.vec("beauty", "rgb", i)};
@@ -134,11 +163,10 @@ std::optional<SeenSurface> surface_at(const ReadRows& rows, std::size_t i, const
     return out;
 }
 
-/// How far numbers of a fit can be trusted, by what it leaves unexplained. Large shares of a few pixels are what a lamp
-/// near the surfaces leaves.
+/// How far numbers of a fit can be trusted, by what it leaves unexplained.
 const char* trust(const LightFit& fit) {
     return fit.median < 0.08 && fit.p90 < 0.3 ? "they explain the picture well"
-           : fit.median < 0.2 ? "they explain most of the picture; lamps near the surfaces are better named by hand"
+           : fit.median < 0.2                 ? "they explain most of the picture"
                               : "they explain the picture badly: name the lights yourself where you can";
 }
 
@@ -150,15 +178,19 @@ FrameLights lights_of_frame(const Scene& scene, int frame) {
         if (!reader.has_role(role))
             throw Error(fmt::format("{}: lights are fitted by the frame's picture and normals; it has no {}",
                                     reader.path().string(), role));
-    camera_of_frame(scene, reader, frame);  // turns normals that are in its space
-    ReadRows rows(reader, {"normal", "beauty", "albedo", "metallic", "emission", "transmission", "transmission_direct",
-                           "transmission_indirect", "transmission_color", "specular", "specular_direct",
-                           "specular_indirect", "specular_color"});
+    const FrameCamera camera = camera_of_frame(scene, reader, frame);  // turns normals that are in its space
+    ReadRows rows(reader, {"depth", "position", "normal", "beauty", "albedo", "metallic", "emission", "transmission",
+                           "transmission_direct", "transmission_indirect", "transmission_color", "specular",
+                           "specular_direct", "specular_indirect", "specular_color"});
+    const Places places(rows, frame_of(scene, reader, camera));
     EvenDraw draw;
     for (std::uint32_t first = 0; first < reader.size().height; first += kRows) {
         const std::size_t count = rows.read(first, std::min(first + kRows, reader.size().height));
         for (std::size_t i = 0; i < count; ++i)
-            if (const auto surface = surface_at(rows, i, scene.lighting.albedo)) draw.add(*surface);
+            if (auto surface = surface_at(rows, i, scene.lighting.albedo)) {
+                surface->place = places.at(i, first);
+                draw.add(*surface);
+            }
     }
     const std::vector<SeenSurface> surfaces = draw.take();
     try {
@@ -180,13 +212,16 @@ Scene with_lights(Scene scene, const FrameLights& lights) {
 
 std::string summary(const FrameLights& lights) {
     const LightFit& fit = lights.fit;
-    std::string suns;
+    std::string lamps;
     for (std::size_t i = 1; i < fit.lights.size(); ++i) {
-        const Vec3& d = fit.lights[i].direction;
-        suns += fmt::format(", a sun that travels along [{:.2f}, {:.2f}, {:.2f}] with {:.3g} W/m2", d[0], d[1], d[2],
-                            fit.lights[i].intensity);
+        const Light& light = fit.lights[i];
+        const bool point = light.kind == LightKind::point;
+        const Vec3& v = point ? light.position : light.direction;
+        lamps +=
+            fmt::format(", a {} [{:.2f}, {:.2f}, {:.2f}] with {:.3g} {}", point ? "point at" : "sun that travels along",
+                        v[0], v[1], v[2], light.intensity, point ? "W/sr" : "W/m2");
     }
-    return fmt::format("a sky{} ({:.0f}% of the radiance unexplained, median; 90%: {:.0f}%{}); {}", suns,
+    return fmt::format("a sky{} ({:.0f}% of the radiance unexplained, median; 90%: {:.0f}%{}); {}", lamps,
                        100 * fit.median, 100 * fit.p90,
                        lights.albedo ? "" : "; the frame has no albedo, so colours of surfaces count as light's",
                        trust(fit));
@@ -209,11 +244,13 @@ std::string lights_as_toml(const FrameLights& lights) {
                                 vec(light.zenith), vec(light.horizon), vec(light.ground));
             continue;
         }
-        text += fmt::format(
-            "kind = \"sun\"\ndirection = {}  # to about {:.2g} degrees; {:.0f}% of what faces it is in shadow\n"
-            "color = {}\nintensity = {:.4g}  # W/m2\n",
-            vec(light.direction), fit.loose_degrees[i - 1], 100 * fit.shadowed[i - 1], vec(light.color),
-            light.intensity);
+        const bool point = light.kind == LightKind::point;
+        text += fmt::format("{} = {}  # to about {:.2g} {}; {:.0f}% of what faces it is in shadow\n",
+                            point ? "kind = \"point\"\nposition" : "kind = \"sun\"\ndirection",
+                            vec(point ? light.position : light.direction), fit.loose[i - 1],
+                            point ? "metres" : "degrees", 100 * fit.shadowed[i - 1]);
+        text += fmt::format("color = {}\nintensity = {:.4g}  # {}\n", vec(light.color), light.intensity,
+                            point ? "W/sr" : "W/m2");
     }
     return text;
 }

@@ -17,9 +17,11 @@ namespace {
 
 constexpr std::size_t kFewest = 200, kOfGrid = 800;
 constexpr int kTurns = 8;         // directions in which axes are turned
-constexpr double kWeakest = 0.1;  // share of the strongest sun's light that another one has at least
-constexpr double kDarkest = 0.5;  // share of what faces a further sun that it may miss: else it explains highlights
-constexpr double kGain = 0.88;    // a further sun leaves this much of the cost or less, or there is none
+constexpr double kWeakest = 0.1;  // share of the strongest lamp's light that another one has at least
+constexpr double kDarkest = 0.5;  // share of what faces a further lamp that it may miss: else it explains highlights
+constexpr double kGain = 0.88;    // a further lamp leaves this much of the cost or less, or there is none
+constexpr double kNear = 0.95;    // ... and a point this much of what a sun in its place leaves
+constexpr double kFar = 12;       // radii from the middle of the surfaces; points further off are suns
 
 /// An axis turned by an angle, in one of kTurns directions.
 Vec3 turn(const Vec3& axis, double degrees, int direction) {
@@ -32,35 +34,68 @@ Vec3 turn(const Vec3& axis, double degrees, int direction) {
     return normalize(out);
 }
 
-/// Turns one axis after the other by ever smaller steps while that helps.
+/// What lies a step of some degrees around a lamp; of a point as seen from the middle of the surfaces, and nearer and
+/// further.
+std::vector<Lamp> around(const Lamp& lamp, const Extent& extent, double degrees) {
+    std::vector<Lamp> all;
+    if (!lamp.point) {
+        for (int direction = 0; direction < kTurns; ++direction) all.push_back({turn(lamp.at, degrees, direction)});
+        return all;
+    }
+    const Vec3 from = subtract(lamp.at, extent.middle);
+    const double step = degrees * std::numbers::pi / 180 * std::max(std::sqrt(dot(from, from)), extent.radius / 4);
+    const auto add = [&](const Vec3& way) {
+        for (const double sign : {-step, step}) {
+            Vec3 at = lamp.at;
+            for (std::size_t c = 0; c < 3; ++c) at[c] += sign * way[c];
+            all.push_back({at, true});
+        }
+    };
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) add(axis);
+    if (dot(from, from) > 0) add(normalize(from));
+    return all;
+}
+
+/// Turns the sky's axis and moves one lamp after the other by ever smaller steps while that helps.
 Fit refined(const LightSolver& solver, Fit best, double step, double finest) {
     while (step >= finest) {
         bool better = false;
-        for (std::size_t axis = 0; axis < best.axes.count(); ++axis)
-            for (int direction = 0; direction < kTurns; ++direction) {
-                Axes turned = best.axes;
-                turned.at(axis) = turn(turned.at(axis), step, direction);
-                if (Fit other = solver.fit(turned); other.cost < best.cost) best = std::move(other), better = true;
+        const auto try_axes = [&](const Axes& axes) {
+            if (Fit other = solver.fit(axes); other.cost < best.cost) best = std::move(other), better = true;
+        };
+        for (int direction = 0; direction < kTurns; ++direction) {
+            Axes turned = best.axes;
+            turned.up = turn(turned.up, step, direction);
+            try_axes(turned);
+        }
+        for (std::size_t k = 0; k < best.axes.lamps.size(); ++k)
+            for (const Lamp& lamp : around(best.axes.lamps[k], solver.extent(), step)) {
+                Axes moved = best.axes;
+                moved.lamps[k] = lamp;
+                try_axes(moved);
             }
         if (!better) step /= 2;
     }
     return best;
 }
 
-/// How far a sun can turn before the cost rises by a hundredth.
-double looseness(const LightSolver& solver, const Fit& best, std::size_t sun) {
+/// How far a lamp can turn, in degrees, or move, in metres, before the cost rises by a hundredth.
+double looseness(const LightSolver& solver, const Fit& best, std::size_t k) {
+    const Lamp& lamp = best.axes.lamps[k];
     double loose = 0.25;
     for (double degrees = 0.5; degrees <= 64; degrees *= 2) {
-        bool holds = false;
-        for (int direction = 0; direction < kTurns && !holds; ++direction) {
-            Axes turned = best.axes;
-            turned.suns[sun] = turn(turned.suns[sun], degrees, direction);
-            holds = solver.fit(turned).cost < best.cost + 0.01;
-        }
+        const std::vector<Lamp> moved = around(lamp, solver.extent(), degrees);
+        const bool holds = std::ranges::any_of(moved, [&](const Lamp& other) {
+            Axes axes = best.axes;
+            axes.lamps[k] = other;
+            return solver.fit(axes).cost < best.cost + 0.01;
+        });
         if (!holds) break;
         loose = degrees;
     }
-    return loose;
+    if (!lamp.point) return loose;
+    const Vec3 step = subtract(around(lamp, solver.extent(), loose).front().at, lamp.at);
+    return std::sqrt(dot(step, step));
 }
 
 /// Directions about 15 degrees apart, all around: a Fibonacci lattice.
@@ -75,30 +110,62 @@ std::vector<Vec3> grid() {
     return directions;
 }
 
-/// The best of fits with one more sun.
-Fit with_sun(const LightSolver& solver, const Axes& axes) {
-    std::optional<Fit> best;
-    for (const Vec3& direction : grid()) {
+/// Places in and around the surfaces, in shells of directions.
+std::vector<Vec3> places(const Extent& extent) {
+    std::vector<Vec3> all;
+    if (!(extent.radius > 0)) return all;
+    const std::vector<Vec3> directions = grid();
+    for (const double radii : {0.35, 0.8, 1.5, 3.0})
+        for (std::size_t i = radii < 1 ? 1 : 0; i < directions.size(); i += radii < 1 ? 4 : 2) {
+            all.push_back(extent.middle);
+            for (std::size_t c = 0; c < 3; ++c) all.back()[c] += radii * extent.radius * directions[i][c];
+        }
+    return all;
+}
+
+/// The best of fits with one more lamp; a point only where it is better by far, as a distant one is a sun.
+Fit with_lamp(const LightSolver& solver, const Axes& axes) {
+    std::optional<Fit> sun, point;
+    const auto best_of = [&](std::optional<Fit>& best, const Lamp& lamp) {
         Axes more = axes;
-        more.suns.push_back(direction);
+        more.lamps.push_back(lamp);
         if (Fit other = solver.fit(more); !best || other.cost < best->cost) best = std::move(other);
-    }
-    return *best;
+    };
+    for (const Vec3& direction : grid()) best_of(sun, {direction});
+    for (const Vec3& place : places(solver.extent())) best_of(point, {place, true});
+    *sun = refined(solver, std::move(*sun), 8, 4);
+    if (!point) return *sun;
+    *point = refined(solver, std::move(*point), 16, 4);
+    const Vec3 gap = subtract(point->axes.lamps.back().at, solver.extent().middle);
+    const bool far = dot(gap, gap) > kFar * kFar * solver.extent().radius * solver.extent().radius;
+    return !far && point->cost < kNear * sun->cost ? *point : *sun;
 }
 
-/// The light of the weakest sun, as a share of the strongest one's.
-double weakest(const Fit& fit) {
-    const auto suns = fit.colours.bottomRows(static_cast<Eigen::Index>(fit.axes.suns.size())).rowwise().sum().eval();
-    return suns.minCoeff() / std::max(suns.maxCoeff(), 1e-30);
+/// A lamp's light on all surfaces together.
+double strength(const LightSolver& solver, const Fit& fit, std::size_t k) {
+    double sum = 0;
+    for (const SeenSurface& surface : solver.surfaces()) sum += solver.term(surface, fit.axes.lamps[k]);
+    return sum * fit.colours.row(static_cast<Eigen::Index>(kSky + k)).sum();
 }
 
-/// The share of the surfaces facing a sun that it does not reach.
-double dark_share(const Fit& fit, std::span<const SeenSurface> surfaces, std::size_t sun) {
+/// The light of the weakest lamp, as a share of the strongest one's.
+double weakest(const LightSolver& solver, const Fit& fit) {
+    std::vector<double> all;
+    for (std::size_t k = 0; k < fit.axes.lamps.size(); ++k) all.push_back(strength(solver, fit, k));
+    const auto [least, most] = std::ranges::minmax(all);
+    return least / std::max(most, 1e-30);
+}
+
+/// The share of the surfaces facing a lamp that it does not reach.
+double dark_share(const LightSolver& solver, const Fit& fit, std::size_t k) {
+    const std::span<const SeenSurface> surfaces = solver.surfaces();
+    const Lamp& lamp = fit.axes.lamps[k];
     double facing = 0, dark = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        if (dot(surfaces[i].normal, fit.axes.suns[sun]) < 0.1) continue;
+        const Vec3 to = lamp.point ? normalize(subtract(lamp.at, *surfaces[i].place)) : lamp.at;
+        if (dot(surfaces[i].normal, to) < 0.1) continue;
         ++facing;
-        if ((fit.lit[i] >> sun & 1) == 0) ++dark;
+        if ((fit.lit[i] >> k & 1) == 0) ++dark;
     }
     return facing > 0 ? dark / facing : 0;
 }
@@ -130,44 +197,48 @@ LightFit fit_lights(std::span<const SeenSurface> surfaces) {
         few.push_back(surfaces[i * surfaces.size() / std::min(surfaces.size(), kOfGrid)]);
     const LightSolver coarse(few), fine(surfaces);
     if (!(fine.scale() > 0)) throw Error("lights cannot be fitted: the picture is black");
-    std::optional<Fit> best;
-    for (const Vec3& up : {Vec3{0, 0, 1}, Vec3{0, 1, 0}}) {  // where other programs have it
-        const Fit dull = coarse.fit({up, {}});
-        if (!best || dull.cost < best->cost) best = dull;
-        if (Fit sunny = with_sun(coarse, {up, {}}); sunny.cost < kGain * std::min(dull.cost, best->cost)) best = sunny;
-    }
-    *best = refined(coarse, std::move(*best), 8, 1);
-    while (!best->axes.suns.empty() && best->axes.suns.size() < kMostSuns) {
-        Fit more = refined(coarse, with_sun(coarse, best->axes), 8, 2);
-        if (!(more.cost < kGain * best->cost) || weakest(more) < kWeakest ||
-            dark_share(more, few, more.axes.suns.size() - 1) > kDarkest)
+    // Other programs have z or y up.
+    Fit z = coarse.fit({{0, 0, 1}, {}}), y = coarse.fit({{0, 1, 0}, {}});
+    Fit best = z.cost <= y.cost ? z : y;
+    Fit sunny = with_lamp(coarse, best.axes);
+    if (Fit other = coarse.fit({z.cost <= y.cost ? y.axes.up : z.axes.up, sunny.axes.lamps}); other.cost < sunny.cost)
+        sunny = std::move(other);
+    if (sunny.cost < kGain * best.cost) best = std::move(sunny);
+    best = refined(coarse, std::move(best), 8, 1);
+    while (!best.axes.lamps.empty() && best.axes.lamps.size() < kMostLamps) {
+        Fit more = refined(coarse, with_lamp(coarse, best.axes), 8, 2);
+        if (!(more.cost < kGain * best.cost) || weakest(coarse, more) < kWeakest ||
+            dark_share(coarse, more, more.axes.lamps.size() - 1) > kDarkest)
             break;
         best = std::move(more);
     }
-    *best = refined(fine, fine.fit(best->axes), 2, 0.25);
+    best = refined(fine, fine.fit(best.axes), 2, 0.25);
 
     LightFit out;
     out.surfaces = surfaces.size();
-    Light sky{.kind = LightKind::sky, .up = best->axes.up};
-    sky.zenith = colour_of(*best, 0, 1), sky.horizon = colour_of(*best, 1, 1), sky.ground = colour_of(*best, 2, 1);
+    Light sky{.kind = LightKind::sky, .up = best.axes.up};
+    sky.zenith = colour_of(best, 0, 1), sky.horizon = colour_of(best, 1, 1), sky.ground = colour_of(best, 2, 1);
     out.lights.push_back(sky);
-    std::vector<std::size_t> order(best->axes.suns.size());
+    std::vector<std::size_t> order(best.axes.lamps.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto strength = [&](std::size_t sun) {
-        return best->colours.row(static_cast<Eigen::Index>(kSky + sun)).sum();
-    };
-    std::ranges::sort(order, std::greater{}, strength);
-    for (const std::size_t sun : order) {
-        const Vec3 irradiance = colour_of(*best, kSky + sun, std::numbers::pi), to = best->axes.suns[sun];
-        const double most = *std::ranges::max_element(irradiance);
+    std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return strength(fine, best, k); });
+    for (const std::size_t k : order) {
+        const Lamp& lamp = best.axes.lamps[k];
+        const double radius = fine.extent().radius, unit = std::numbers::pi * (lamp.point ? radius * radius : 1);
+        const Vec3 power = colour_of(best, kSky + k, unit);
+        const double most = *std::ranges::max_element(power);
         if (!(most > 0)) continue;
-        Light light{.kind = LightKind::sun, .intensity = most, .direction = {-to[0], -to[1], -to[2]}};
-        for (std::size_t c = 0; c < 3; ++c) light.color[c] = irradiance[c] / most;
+        Light light{.kind = lamp.point ? LightKind::point : LightKind::sun, .intensity = most};
+        if (lamp.point)
+            light.position = lamp.at;
+        else
+            light.direction = {-lamp.at[0], -lamp.at[1], -lamp.at[2]};
+        for (std::size_t c = 0; c < 3; ++c) light.color[c] = power[c] / most;
         out.lights.push_back(light);
-        out.loose_degrees.push_back(looseness(coarse, coarse.fit(best->axes), sun));
-        out.shadowed.push_back(dark_share(*best, surfaces, sun));
+        out.loose.push_back(looseness(coarse, coarse.fit(best.axes), k));
+        out.shadowed.push_back(dark_share(fine, best, k));
     }
-    std::vector<double> off = best->off;
+    std::vector<double> off = best.off;
     std::ranges::sort(off);
     out.median = off[off.size() / 2] / fine.scale(), out.p90 = off[off.size() * 9 / 10] / fine.scale();
     return out;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/median.h"
 #include "base/vec.h"
 
 namespace wrinkle {
@@ -13,10 +14,11 @@ namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr std::size_t kUnknowns = kSky + kMostSuns;
+constexpr std::size_t kUnknowns = kSky + kMostLamps;
 using Terms = std::array<double, kUnknowns>;
-constexpr int kRounds = 8;       // of weights and shadows; they settle in fewer
-constexpr double kNoise = 0.06;  // of the median radiance: what is taken for noise
+constexpr int kRounds = 8;         // of weights and shadows; they settle in fewer
+constexpr double kNearest = 0.02;  // of the radius: nearer to a point, light does not grow
+constexpr double kNoise = 0.06;    // of the median radiance: what is taken for noise
 
 double square(double x) { return x * x; }
 
@@ -44,7 +46,7 @@ VectorXd solve_not_negative(const MatrixXd& a, const VectorXd& b) {
     return x;
 }
 
-/// The terms of a surface that some of the suns reach: a bit each.
+/// The terms of a surface that some of the lamps reach: a bit each.
 Terms lit_terms(Terms terms, unsigned lit) {
     for (std::size_t k = kSky; k < kUnknowns; ++k)
         if ((lit >> (k - kSky) & 1) == 0) terms[k] = 0;
@@ -54,7 +56,7 @@ Terms lit_terms(Terms terms, unsigned lit) {
 /// The colours, by least squares of the surfaces in their light or shadow.
 void solve(Fit& fit, std::span<const SeenSurface> surfaces, const std::vector<Terms>& terms,
            const std::vector<double>& weights) {
-    const std::size_t unknowns = kSky + fit.axes.suns.size();
+    const std::size_t unknowns = kSky + fit.axes.lamps.size();
     std::array<Terms, kUnknowns> a{};
     std::array<Vec3, kUnknowns> b{};
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -77,14 +79,14 @@ void solve(Fit& fit, std::span<const SeenSurface> surfaces, const std::vector<Te
     for (Eigen::Index c = 0; c < 3; ++c) fit.colours.col(c) = solve_not_negative(matrix, right.col(c));
 }
 
-/// Of all ways in which the suns reach a surface, the one that explains it best; and by how much that is off.
+/// Of all ways in which the lamps reach a surface, the one that explains it best; and by how much that is off.
 void choose_shadows(Fit& fit, std::span<const SeenSurface> surfaces, const std::vector<Terms>& terms) {
-    const std::size_t unknowns = kSky + fit.axes.suns.size();
+    const std::size_t unknowns = kSky + fit.axes.lamps.size();
     std::array<Vec3, kUnknowns> colours{};
     for (std::size_t k = 0; k < unknowns; ++k) colours[k] = colour_of(fit, k, 1);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         double least = std::numeric_limits<double>::infinity();
-        for (unsigned state = 1u << fit.axes.suns.size(); state-- > 0;) {
+        for (unsigned state = 1u << fit.axes.lamps.size(); state-- > 0;) {
             const Terms row = lit_terms(terms[i], state);
             Vec3 gap = surfaces[i].radiance;
             for (std::size_t k = 0; k < unknowns; ++k)
@@ -106,22 +108,38 @@ Vec3 colour_of(const Fit& fit, std::size_t row, double factor) {
 }
 
 LightSolver::LightSolver(std::span<const SeenSurface> surfaces) : surfaces_(surfaces) {
-    std::vector<double> sizes;
+    std::vector<double> sizes, distances;
     for (const SeenSurface& s : surfaces) sizes.push_back(std::sqrt(dot(s.radiance, s.radiance)));
-    std::ranges::nth_element(sizes, sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2));
-    scale_ = sizes[sizes.size() / 2];
+    scale_ = median(sizes);
+    if (!std::ranges::all_of(surfaces, [](const SeenSurface& s) { return s.place.has_value(); })) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<double> axis;
+        for (const SeenSurface& s : surfaces) axis.push_back((*s.place)[c]);
+        extent_.middle[c] = median(axis);
+    }
+    for (const SeenSurface& s : surfaces) {
+        const Vec3 gap = subtract(*s.place, extent_.middle);
+        distances.push_back(std::sqrt(dot(gap, gap)));
+    }
+    extent_.radius = median(distances);
+}
+
+double LightSolver::term(const SeenSurface& surface, const Lamp& lamp) const {
+    if (!lamp.point) return std::max(dot(surface.normal, lamp.at), 0.0);
+    const Vec3 gap = subtract(lamp.at, *surface.place);
+    const double distance2 = std::max(dot(gap, gap), square(kNearest * extent_.radius));
+    return std::max(dot(surface.normal, gap), 0.0) * square(extent_.radius) / (distance2 * std::sqrt(distance2));
 }
 
 Fit LightSolver::fit(const Axes& axes) const {
-    const std::size_t suns = axes.suns.size(), count = surfaces_.size();
-    Fit out{axes, MatrixXd::Zero(static_cast<Eigen::Index>(kSky + suns), 3), std::vector<double>(count),
-            std::vector<std::uint8_t>(count, static_cast<std::uint8_t>((1u << suns) - 1)), 0};
+    const std::size_t lamps = axes.lamps.size(), count = surfaces_.size();
+    Fit out{axes, MatrixXd::Zero(static_cast<Eigen::Index>(kSky + lamps), 3), std::vector<double>(count),
+            std::vector<std::uint8_t>(count, static_cast<std::uint8_t>((1u << lamps) - 1)), 0};
     std::vector<Terms> terms(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto sky = sky_terms(dot(surfaces_[i].normal, axes.up));
         std::ranges::copy(sky, terms[i].begin());
-        for (std::size_t k = 0; k < suns; ++k)
-            terms[i][kSky + k] = std::max(dot(surfaces_[i].normal, axes.suns[k]), 0.0);
+        for (std::size_t k = 0; k < lamps; ++k) terms[i][kSky + k] = term(surfaces_[i], axes.lamps[k]);
     }
     std::vector<double> weights(count, 1.0);
     for (int round = 0; round < kRounds; ++round) {

@@ -25,6 +25,7 @@ struct Seen {
     double noise = 0.03;     ///< of the radiance
     double outliers = 0.08;  ///< share of the surfaces that show something else
     bool upwards = false;
+    bool placed = false;  ///< in a room of 4 x 4 x 2 metres, which the surfaces fill
 
     std::vector<SeenSurface> surfaces(std::size_t count) const {
         std::mt19937 random(7);
@@ -40,12 +41,14 @@ struct Seen {
             V n = normalize(V{normal(random), normal(random), normal(random)});
             if (upwards) n.z = std::abs(n.z);
             const bool dark = uniform(random) < shadowed;
+            V at{};
+            if (placed) at = {4 * uniform(random) - 2, 4 * uniform(random) - 2, 2 * uniform(random)};
             // White, f0 = 0, seen from above: the grazing specular is none where the view is the normal.
-            V shown = reference::lit(dark ? sky : all, n, n, n, V{}, white);
+            V shown = reference::lit(dark ? sky : all, n, n, n, at, white);
             const real glow = uniform(random) < outliers ? 2 * uniform(random) : 0;
             shown = shown * real(1 + noise * normal(random)) + V{glow, glow, glow};
-            out.push_back(
-                {{double(n.x), double(n.y), double(n.z)}, {double(shown.x), double(shown.y), double(shown.z)}});
+            const auto array = [](const V& v) { return Vec3{double(v.x), double(v.y), double(v.z)}; };
+            out.push_back({array(n), array(shown), placed ? std::optional(array(at)) : std::nullopt});
         }
         return out;
     }
@@ -87,7 +90,7 @@ TEST(LightFit, FindsASunInItsShadowsAndTheSky) {
         const double off = degrees_between(fit.lights[1].direction, seen.lights[1].direction);
         fmt::print(
             "sun {:.2f} degrees off, loose by {}, intensity {:.3f}, shadowed {:.2f}; sky {:.3f}; median {:.3f}\n", off,
-            fit.loose_degrees[0], fit.lights[1].intensity, fit.shadowed[0], sky_error(fit.lights[0], seen.lights[0]),
+            fit.loose[0], fit.lights[1].intensity, fit.shadowed[0], sky_error(fit.lights[0], seen.lights[0]),
             fit.median);
         EXPECT_LE(off, 2);
         EXPECT_NEAR(fit.lights[1].intensity, 3.4, 0.17);
@@ -105,6 +108,44 @@ TEST(LightFit, FindsTwoSuns) {
     for (const std::size_t i : {1u, 2u})
         EXPECT_LE(degrees_between(fit.lights[i].direction, seen.lights[i].direction), 4) << i;
     EXPECT_GE(fit.lights[1].intensity, fit.lights[2].intensity) << "the strongest first";
+}
+
+double metres_between(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+TEST(LightFit, FindsAPointByHowItsLightFallsOff) {
+    for (const Vec3 place : {Vec3{0.6, -0.8, 2.5}, Vec3{0.2, 0.3, 0.9}}) {
+        const Light lamp{.kind = LightKind::point, .color = {1, 0.9, 0.7}, .intensity = 8, .position = place};
+        const Seen seen{.lights = {two_colours(), lamp}, .placed = true};
+        const LightFit fit = fit_lights(seen.surfaces(1500));
+        ASSERT_EQ(fit.lights.size(), 2u);
+        ASSERT_EQ(fit.lights[1].kind, LightKind::point);
+        const double off = metres_between(fit.lights[1].position, place);
+        fmt::print("point {:.3f} m off, loose by {:.3f}, intensity {:.2f}, shadowed {:.2f}, median {:.3f}\n", off,
+                   fit.loose[0], fit.lights[1].intensity, fit.shadowed[0], fit.median);
+        EXPECT_LE(off, 0.15);
+        EXPECT_NEAR(fit.lights[1].intensity, 8, 0.8);
+        EXPECT_NEAR(fit.shadowed[0], 0.3, 0.08);
+    }
+}
+
+TEST(LightFit, FindsASunBesideAPoint) {
+    const Light lamp{.kind = LightKind::point, .intensity = 8, .position = {0.6, -0.8, 2.5}};
+    const Seen seen{.lights = {two_colours(), lamp, sun({0.7, 0.48, -0.53}, 2)}, .placed = true};
+    const LightFit fit = fit_lights(seen.surfaces(1500));
+    ASSERT_EQ(fit.lights.size(), 3u);
+    const std::size_t point = fit.lights[1].kind == LightKind::point ? 1 : 2;
+    ASSERT_EQ(fit.lights[point].kind, LightKind::point);
+    ASSERT_EQ(fit.lights[3 - point].kind, LightKind::sun);
+    EXPECT_LE(metres_between(fit.lights[point].position, lamp.position), 0.3);
+    EXPECT_LE(degrees_between(fit.lights[3 - point].direction, {0.7, 0.48, -0.53}), 6);
+}
+
+TEST(LightFit, ASunIsNoPointWhereSurfacesHavePlaces) {
+    const Seen seen{.lights = {two_colours(), sun({0.7, 0.48, -0.53}, 3.4)}, .placed = true};
+    const LightFit fit = fit_lights(seen.surfaces(1500));
+    ASSERT_EQ(fit.lights.size(), 2u);
+    EXPECT_EQ(fit.lights[1].kind, LightKind::sun);
+    EXPECT_LE(degrees_between(fit.lights[1].direction, {0.7, 0.48, -0.53}), 2);
 }
 
 TEST(LightFit, ADullDayHasNoSun) {
