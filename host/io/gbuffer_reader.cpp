@@ -13,11 +13,13 @@
 #include "io/beauty_file.h"
 #include "io/channel_names.h"
 #include "io/frame_path.h"
+#include "io/front_objects.h"
 #include "io/glance.h"
 #include "io/image_open.h"
 #include "io/image_parts.h"
 #include "io/packed_normals.h"
 #include "io/plane_errors.h"
+#include "io/turn_v.h"
 #include "io/vector_planes.h"
 #include "wrinkle/error.h"
 
@@ -34,32 +36,29 @@ RoleMap detect(const std::filesystem::path& file, std::span<const std::string> c
     } catch (const Error& error) { throw Error(fmt::format("{}: {}", file.string(), error.what())); }
 }
 
-/// Texture coordinates that grow downwards become such that grow upwards; so do their derivatives.
-void turn_v(std::string_view plane, std::span<float> values) {
-    if (plane == "uv.v")
-        for (float& value : values) value = 1 - value;
-    else if (plane == "duv_dx.v" || plane == "duv_dy.v" || plane.starts_with("dp_dv."))
-        for (float& value : values) value = -value;
-}
-
 }  // namespace
 
 struct GBufferReader::Impl {
     std::filesystem::path path;
     io::ImageParts image;
-    std::vector<std::string> channels;
+    std::vector<std::string> channels, beauty_channels;
     std::map<std::string, const io::ChannelPlace*, std::less<>> places;
     RoleMap roles;
     bool packed_normals = false;
     std::optional<Mat4> view;  // that turns camera-space normals
     std::optional<io::ObjectStorage> objects;
     CryptomatteManifest cryptomatte;
+    std::optional<io::FrontObjects> fronts;
     std::unique_ptr<io::BandReader> reader;
     std::unique_ptr<GBufferReader> beauty;  // another file, whose picture it is
+    std::uint32_t beauty_scale = 1;
     std::map<std::string, io::VectorPlanes, std::less<>> vectors;
     bool overscan = false;
 
-    bool is_elsewhere(std::string_view plane) const { return beauty && plane.starts_with("beauty."); }
+    bool is_elsewhere(std::string_view plane) const {
+        return beauty && (plane.starts_with("beauty.") ||
+                          (plane.starts_with(file_channel) && !places.contains(plane.substr(file_channel.size()))));
+    }
     const io::VectorPlanes* vectors_of(std::string_view plane) const {
         const auto found = vectors.find(plane.substr(0, plane.rfind('.')));
         return found == vectors.end() ? nullptr : &found->second;
@@ -93,10 +92,8 @@ struct GBufferReader::Impl {
     const io::ChannelPlace* alpha_of_beauty() const {
         const auto red = roles.channel_of.find("beauty.r");
         if (red == roles.channel_of.end()) return nullptr;
-        const std::string layer = lower(red->second.substr(0, red->second.rfind('.') + 1));  // "" of a plain "R"
         for (const auto& [channel, found] : places)
-            for (const char* name : {"a", "alpha"})
-                if (lower(channel) == layer + name && !found->whole_numbers) return found;
+            if (io::is_alpha_beside(channel, red->second) && !found->whole_numbers) return found;
         return nullptr;
     }
 
@@ -125,22 +122,9 @@ io::ObjectStorage GBufferReader::Impl::sample_objects() const {
 bool GBufferReader::Impl::sample_packed_normals(NormalKind kind) const {
     if (kind == NormalKind::packed) return true;
     if (!roles.has_role("normal") || kind == NormalKind::sign) return false;
-    const std::size_t width = image.size.width;
-    std::vector<float> planes[3];
-    for (const std::uint32_t row : glance_rows()) {  // the first one nearly always decides
-        std::vector<io::WantedChannel> wanted;
-        std::span<const float> read[3];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            planes[axis].resize(planes[axis].size() + width);
-            read[axis] = std::span(planes[axis]).last(width);
-            wanted.push_back({*place(normal_planes[axis]), planes[axis].data() + planes[axis].size() - width});
-        }
-        try {
-            reader->read(row, row + 1, wanted);
-        } catch (const Error&) { return false; }  // left to the reading of all rows, which tells the first damaged one
-        if (io::cannot_be_packed(read[0], read[1], read[2])) return false;
-    }
-    return io::looks_packed(planes[0], planes[1], planes[2]);
+    const std::array<io::ChannelPlace, 3> axes{*place(normal_planes[0]), *place(normal_planes[1]),
+                                               *place(normal_planes[2])};
+    return io::are_packed(*reader, axes, glance_rows(), image.size.width);
 }
 
 void GBufferReader::Impl::open(const GBufferSource& source) {
@@ -154,6 +138,7 @@ void GBufferReader::Impl::open(const GBufferSource& source) {
     roles = detect(path, channels, source, image.metadata);
     reader = std::make_unique<io::BandReader>(std::move(opened), image);
     if (roles.cryptomatte_ranks > 0) cryptomatte = CryptomatteManifest(image.metadata, roles.cryptomatte_layer, path);
+    fronts.emplace(roles);
     packed_normals = sample_packed_normals(source.normals);
     if (!source.beauty_file.empty()) take_beauty(source);
 }
@@ -163,11 +148,8 @@ void GBufferReader::Impl::take_beauty(const GBufferSource& source) {
     if (!source.beauty_layer.empty()) other.roles["beauty"] = source.beauty_layer;
     beauty = std::make_unique<GBufferReader>(source.beauty_file, other);
     if (source.beauty_layer.empty()) io::require_one_beauty(beauty->channels(), source.beauty_file.string());
-    const FrameWindow& theirs = beauty->window();
-    if (beauty->size() != image.size || theirs.x != image.window.x || theirs.y != image.window.y)
-        throw Error(fmt::format("{}: the beauty has {}x{} pixels; {} has {}x{}", source.beauty_file.string(),
-                                beauty->size().width, beauty->size().height, path.string(), image.size.width,
-                                image.size.height));
+    beauty_channels = beauty->channels();
+    beauty_scale = io::beauty_scale(beauty->impl_->image, source.beauty_file, image, path);
     for (const char* plane : {"beauty.r", "beauty.g", "beauty.b"}) {
         if (!beauty->has_plane(plane)) io::fail_missing_plane(plane, beauty->channels(), beauty->path());
         roles.channel_of[plane] = beauty->roles().channel_of.find(plane)->second;
@@ -193,6 +175,8 @@ GBufferReader& GBufferReader::operator=(GBufferReader&&) noexcept = default;
 const std::filesystem::path& GBufferReader::path() const { return impl_->path; }
 Size GBufferReader::size() const { return impl_->image.size; }
 const FrameWindow& GBufferReader::window() const { return impl_->image.window; }
+std::uint32_t GBufferReader::beauty_scale() const { return impl_->beauty_scale; }
+const std::vector<std::string>& GBufferReader::beauty_channels() const { return impl_->beauty_channels; }
 int GBufferReader::parts() const { return static_cast<int>(impl_->image.parts.size()); }
 const std::vector<std::string>& GBufferReader::channels() const { return impl_->channels; }
 const RoleMap& GBufferReader::roles() const { return impl_->roles; }
@@ -230,13 +214,16 @@ io::ObjectStorage GBufferReader::object_storage() const {
 }
 const Metadata& GBufferReader::metadata() const { return impl_->image.metadata; }
 const CryptomatteManifest& GBufferReader::cryptomatte() const { return impl_->cryptomatte; }
-bool GBufferReader::has_plane(std::string_view plane) const { return impl_->place(plane) != nullptr; }
+bool GBufferReader::has_plane(std::string_view plane) const {
+    return plane == io::kFrontPlane ? !impl_->fronts->needed().empty() : impl_->place(plane) != nullptr;
+}
 
 std::vector<std::string> GBufferReader::planes() const {
     std::vector<std::string> result;
     for (const auto& [plane, channel] : impl_->roles.channel_of) result.push_back(plane);
     for (const auto& [name, vectors] : impl_->vectors)
         for (const char* const axis : {".x", ".y", ".z"}) result.push_back(name + axis);
+    if (has_plane(io::kFrontPlane)) result.emplace_back(io::kFrontPlane);
     return result;
 }
 
@@ -258,19 +245,29 @@ void GBufferReader::read_rows(std::uint32_t row_begin, std::uint32_t row_end, st
     if (row_begin > row_end || row_end > size().height || planes.size() != out.size())
         throw Error(fmt::format("{}: rows {} to {} of {} planes into {} were asked for; the frame has {} rows",
                                 path().string(), row_begin, row_end, planes.size(), out.size(), size().height));
+    const std::size_t count = std::size_t{row_end - row_begin} * size().width;
+    if (has_plane(io::kFrontPlane) && std::ranges::find(planes, io::kFrontPlane) != planes.end())
+        return impl_->fronts->read(planes, out, size().width, count, [&](const auto& names, const auto& into) {
+            read_rows(row_begin, row_end, names, into);
+        });
     require(planes);
     std::map<io::BandReader*, std::vector<io::WantedChannel>> wanted;
     for (std::size_t i = 0; i < planes.size(); ++i)
         wanted[&impl_->reader_of(planes[i])].push_back(
             {*impl_->place(planes[i]), out[i], planes[i] == "object" || planes[i].starts_with(bits_of_channel)});
-    for (const auto& [reader, channels] : wanted) reader->read(row_begin, row_end, channels);
-    const std::size_t count = std::size_t{row_end - row_begin} * size().width;
+    for (const auto& [reader, channels] : wanted) {
+        const bool is_beauty = impl_->beauty && reader == impl_->beauty->impl_->reader.get();
+        if (is_beauty && impl_->beauty_scale > 1)
+            io::read_enlarged(*reader, row_begin, row_end, channels, size().width, impl_->beauty_scale);
+        else
+            reader->read(row_begin, row_end, channels);
+    }
     impl_->finish_normals(planes, out, count);
     impl_->finish_vectors(planes, out, count);
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const std::span<float> values(out[i], count);
         if (planes[i] == "object") io::label_objects(values, object_storage());
-        if (impl_->roles.v_down) turn_v(planes[i], values);
+        if (impl_->roles.v_down) io::turn_v(planes[i], values);
     }
 }
 

@@ -40,6 +40,9 @@ public:
     const std::filesystem::path& path() const;
     Size size() const;  ///< the display window, and the overscan that is wanted
     const FrameWindow& window() const;
+    /// Pixels of the frame along each side of a pixel of its beauty, which is read as if it had the frame's size.
+    std::uint32_t beauty_scale() const;
+    const std::vector<std::string>& beauty_channels() const;  ///< of the other file that the beauty is read from
     int parts() const;
     const std::vector<std::string>& channels() const;  ///< of all parts; channel X of a part named N is "N.X"
     const RoleMap& roles() const;                      ///< depth kind included: planar or ray

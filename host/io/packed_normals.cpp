@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/median.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle::io {
 
@@ -69,6 +70,25 @@ void unpack_normals(std::span<float> x, std::span<float> y, std::span<float> z) 
         const bool none = length(n) < shortest || length(n) > longest;
         x[i] = none ? 0 : n[0], y[i] = none ? 0 : n[1], z[i] = none ? 0 : n[2];
     }
+}
+
+bool are_packed(BandReader& reader, const std::array<ChannelPlace, 3>& axes, std::span<const std::uint32_t> rows,
+                std::size_t width) {
+    std::vector<float> planes[3];
+    for (const std::uint32_t row : rows) {  // the first one nearly always decides
+        std::vector<WantedChannel> wanted;
+        std::span<const float> read[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            planes[axis].resize(planes[axis].size() + width);
+            read[axis] = std::span(planes[axis]).last(width);
+            wanted.push_back({axes[axis], planes[axis].data() + planes[axis].size() - width});
+        }
+        try {
+            reader.read(row, row + 1, wanted);
+        } catch (const Error&) { return false; }
+        if (cannot_be_packed(read[0], read[1], read[2])) return false;
+    }
+    return looks_packed(planes[0], planes[1], planes[2]);
 }
 
 }  // namespace wrinkle::io

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
+#include "io/band_reader.h"
 #include "wrinkle/camera.h"
 
 namespace wrinkle::io {
@@ -19,5 +22,10 @@ void turn_normals(const Mat4& view, std::span<float> x, std::span<float> y, std:
 
 /// n = 2 c - 1, in place. What no normal is stored as becomes (0, 0, 0), the background: black, grey, white.
 void unpack_normals(std::span<float> x, std::span<float> y, std::span<float> z);
+
+/// Whether a file's normals look packed, by some of its rows. Rows that cannot be read say that they do not: the error
+/// is left to the reading of all rows, which tells the first damaged one.
+bool are_packed(BandReader& reader, const std::array<ChannelPlace, 3>& axes, std::span<const std::uint32_t> rows,
+                std::size_t width);
 
 }  // namespace wrinkle::io

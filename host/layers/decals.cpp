@@ -174,7 +174,16 @@ std::string row_masks(LayerText& at, const std::vector<Projector>& rows) {
             "at.in));\n",
             identifier(id), identifier(coverage));
     }
-    return text + "                        weight *= wr_mask_channel(covered);\n                    }\n";
+    // Frames that somebody else made lack the plane; there Cryptomatte's first rank, which covers most, is in front.
+    const std::string front = at.emitter.has("crypto.front") ? "crypto.front" : "crypto.id0";
+    at.section.inputs.insert(front);
+    return text +
+           fmt::format(
+               "                        wr_floats front = wr_load_floats({}, at.in);\n"
+               "                        weight *= wr_mask_channel(wr_mask_front(front,\n"
+               "                            wr_projector_cryptomatte(decal, front, (wr_real)(1)), covered, 0));\n"
+               "                    }}\n",
+               identifier(front));
 }
 
 /// The objects that rows are meant for, each with the first row that names it.

@@ -209,7 +209,46 @@ std::string relight_text(Emitter& emitter, Section& section) {
            "        lit = wr_select(valid, wr_max(wr_add(beauty, change), wr_min(beauty, wr_zero3())), beauty);\n";
 }
 
+/// Text of the roughness that bumped normals are lit with, where they are lit once a pixel.
+std::string roughness_now(Section& section, const std::vector<LitTerm>& terms, const LightEnd& end, double lights) {
+    if (end.at_taps) {
+        for (const LitTerm& term : terms) section.reads.insert(term.value);
+        return "roughness";
+    }
+    section.operations += kLight * lights;
+    if (!end.spread) return "roughness";
+    section.reads.insert("spread");
+    return "wr_widened_roughness(roughness, spread)";
+}
+
 }  // namespace
+
+bool sums_light(const Emitter& emitter) {
+    return emitter.scene.lighting.relight == Relight::ratio && emitter.available.beauty_scale > 1;
+}
+
+Section emit_light_terms(Emitter& emitter, const LightEnd& end) {
+    const double lights = lights_of_pixel(emitter);
+    const std::vector<LitTerm> terms = lit_terms(emitter);
+    Section section;
+    section.title = "light with and without bumps, for sums over pixels of the picture";
+    section.reads = {"valid", "p", "n", "base"};
+    section.summed = true;
+    section.operations = kLight * lights;
+    section.body = lit_surface_text(emitter, section);
+    const std::string now = roughness_now(section, terms, end, lights);
+    for (const LitTerm& term : terms) {
+        const std::string old = old_name(term.value);
+        if (!end.at_taps) section.body += fmt::format("        {} = {};\n", term.value, term.of("p", "n", now));
+        section.body += fmt::format("        {} = {};\n", old, term.of("p", "base", "roughness"));
+        for (const std::string& name : {term.value, old}) {
+            section.writes.insert(name);
+            section.body += fmt::format("        {0} = wr_select(valid, {0}, wr_zero3());\n", name);
+        }
+    }
+    emitter.plan.sums_over = emitter.available.beauty_scale;
+    return section;
+}
 
 Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     const Lighting& lighting = emitter.scene.lighting;
@@ -223,16 +262,7 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     section.operations = 20;
     std::string& text = section.body;
     text = lit_surface_text(emitter, section);
-    std::string now = "roughness";
-    if (end.at_taps) {
-        for (const LitTerm& term : terms) section.reads.insert(term.value);
-    } else {
-        section.operations += kLight * lights;
-        if (end.spread) {
-            section.reads.insert("spread");
-            now = "wr_widened_roughness(roughness, spread)";
-        }
-    }
+    const std::string now = end.summed ? "" : roughness_now(section, terms, end, lights);
     if (!ratio) {
         if (!end.at_taps) text += fmt::format("        lit = {};\n", terms.front().of("p", "n", now));
         text += "        lit = wr_select(valid, lit, wr_zero3());\n";
@@ -244,11 +274,15 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
         return section;
     }
     emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
-    section.operations += 60 + kLight * lights;
+    section.operations += 60 + (end.summed ? 0 : kLight * lights);
     for (const LitTerm& term : terms) {
+        if (end.summed) {
+            section.reads.insert({term.value, old_name(term.value)});
+            continue;
+        }
         if (!end.at_taps && term.value != "lit") text += fmt::format("        wr_vec3 {};\n", term.value);
         if (!end.at_taps) text += fmt::format("        {} = {};\n", term.value, term.of("p", "n", now));
-        text += fmt::format("        wr_vec3 old_{} = {};\n", term.value, term.of("p", "base", "roughness"));
+        text += fmt::format("        wr_vec3 {} = {};\n", old_name(term.value), term.of("p", "base", "roughness"));
     }
     text += relight_text(emitter, section);
     emitter.plan.specular_apart = specular_apart(emitter);

@@ -25,6 +25,9 @@ constexpr std::size_t kMostPictures = 16;
 /// Name of the value that holds the radiance that a picture shows; of 0: that which none does.
 const char* lit_name(std::size_t picture);
 
+/// Name of the value that holds what a lit one would be without bumps.
+inline std::string old_name(const std::string& lit) { return "old_" + lit; }
+
 /// The planes of the frame's layer called `picture`; if there is none, of the only layer whose name ends in a dot and
 /// that name. Throws Error, naming the light that wants it and the layers to choose from.
 std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::string& picture);

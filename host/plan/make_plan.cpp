@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plan/decal_order.h"
+#include "plan/emit_kernel.h"
 #include "plan/section.h"
 #include "wrinkle/error.h"
 
@@ -129,7 +130,11 @@ std::vector<Section> emit_sections(Emitter& emitter) {
         bumped |= bends;
     }
     const int last = static_cast<int>(stages.size()) - 1;
-    if (relight && emitter.options.write_normal) add(emit_lighting(emitter, {area.lights, area.spread}), last);
+    if (relight && emitter.options.write_normal) {
+        LightEnd end{area.lights, area.spread, sums_light(emitter)};
+        if (end.summed) add(emit_light_terms(emitter, end), last);
+        add(emit_lighting(emitter, end), last);
+    }
     add(emit_output(emitter, bumped), last);
     if (emitter.options.split)  // split kernels read the sums from memory: the first one has to write zeros there
         for (const char* sum : {"g", "dh_dp"})
@@ -138,99 +143,41 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     return sections;
 }
 
-/// Scratch planes of a value, in split plans.
-std::vector<std::string> scratch_planes(const Value& value) {
-    std::vector<std::string> planes;
-    for (std::size_t i = 0; i < value.parts.size(); ++i) planes.push_back(fmt::format("{}_{}", value.name, i));
-    return planes;
-}
-
-std::string declare(const Value& value) {
-    const std::string type = value.type;
-    const std::string zero = type == "wr_vec3"       ? "wr_zero3()"
-                             : type == "wr_texcoord" ? "{{0, 0}, {0, 0}, {0, 0}}"
-                             : type == "wr_tangents" ? "{wr_zero3(), wr_zero3()}"
-                                                     : "0";
-    return fmt::format("    {} {} = {};\n", type, value.name, zero);
-}
-
-/// One kernel for consecutive sections. Split plans carry values from kernel to kernel through scratch planes.
-PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector<const Section*>& sections, bool split,
-                          bool compiled_numbers) {
-    std::set<std::string> inputs, used, loaded, stored;
-    std::vector<std::string> outputs;
-    for (const Section* section : sections) {
-        inputs.insert(section->inputs.begin(), section->inputs.end());
-        outputs.insert(outputs.end(), section->outputs.begin(), section->outputs.end());
-        for (const auto& names : {section->reads, section->writes}) used.insert(names.begin(), names.end());
-        if (split) {
-            loaded.insert(section->reads.begin(), section->reads.end());
-            stored.insert(section->writes.begin(), section->writes.end());
-        }
+/// Adds the kernels of a plan: one of all sections, or one each; where light is added up over pixels of the picture,
+/// one of those before and one of those after.
+void add_kernels(Plan& plan, const std::vector<Section>& sections, const PlanOptions& options, std::uint32_t size) {
+    const auto united = [](const std::vector<const Section*>& of, std::set<std::string> Section::*names) {
+        std::set<std::string> all;
+        for (const Section* section : of) all.insert((section->*names).begin(), (section->*names).end());
+        return all;
+    };
+    std::set<std::string> means, stored;
+    std::vector<const Section*> together, after;
+    for (const Section& section : sections) after.push_back(&section);
+    for (const Section& section : sections) {
+        together.push_back(&section);
+        after.erase(after.begin());
+        if (!options.split && !section.summed && !after.empty()) continue;
+        Handed handed;
+        handed.loaded = united(together, &Section::reads);
+        if (!options.split)
+            std::erase_if(handed.loaded, [&](const std::string& value) { return !stored.contains(value); });
+        if (options.split || section.summed) handed.stored = united(together, &Section::writes);
+        if (!options.split)
+            std::erase_if(handed.stored, [wanted = united(after, &Section::reads)](const std::string& value) {
+                return !wanted.contains(value);
+            });
+        stored.insert(handed.stored.begin(), handed.stored.end());
+        handed.means = means;
+        const std::string name = options.split    ? fmt::format("wr_section_{}", plan.kernels.size())
+                                 : section.summed ? "wr_light_terms"
+                                                  : "wr_evaluate";
+        plan.kernels.push_back(emit_kernel(plan, name, together, handed, options.compiled_numbers));
+        together.clear();
+        if (!section.summed) continue;
+        means = section.writes;
+        plan.kernels.push_back(emit_means(plan, means, size, options.compiled_numbers));
     }
-    PlannedKernel kernel{name, {inputs.begin(), inputs.end()}, {}, outputs, 0};
-    std::string load, store;
-    for (const Value& value : values()) {
-        if (!split || (!loaded.contains(value.name) && !stored.contains(value.name))) continue;
-        const std::vector<std::string> planes = scratch_planes(value);
-        kernel.scratch.insert(kernel.scratch.end(), planes.begin(), planes.end());
-        const bool truth = std::string(value.type) == "wr_mask";
-        for (std::size_t i = 0; i < planes.size(); ++i) {
-            const std::string part = fmt::format("{}{}", value.name, value.parts[i]);
-            const std::string from = fmt::format("wr_load_real(scratch_{}, at.out)", planes[i]);
-            if (loaded.contains(value.name)) load += fmt::format("    {} = {};\n", part, truth ? from + " != 0" : from);
-            if (stored.contains(value.name))
-                store += fmt::format("    wr_store({}, scratch_{}, at.out);\n",
-                                     truth ? part + " ? (wr_real)(1) : (wr_real)(0)" : part, planes[i]);
-        }
-    }
-
-    std::string& text = plan.source;
-    text += fmt::format(
-        "kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *{},\n"
-        "    constant const WR_SCALAR *eye_places, global const float *restrict texels, global const uint *restrict "
-        "textures,\n"
-        "    global const wr_projector *restrict decals, constant const wr_lighting *lighting, constant const wr_light "
-        "*lights,\n",
-        name, compiled_numbers ? "numbers_in_memory" : "numbers");
-    if (plan.projectors > 0)
-        text +=
-            "    global const wr_projector *restrict projectors, global const uint *restrict lists,\n"
-            "    global const uint *restrict entries, uint supers,\n";
-    if (plan.light_order)
-        text +=
-            "    global const wr_light *restrict light_rows, global const uint *restrict light_lists,\n"
-            "    global const uint *restrict light_entries, uint light_supers,\n";
-    for (const std::string& plane : kernel.inputs)
-        text += fmt::format("    global const float *restrict {},\n", identifier(plane));
-    for (const std::string& plane : kernel.scratch)
-        text += fmt::format("    global WR_SCALAR *restrict scratch_{},\n", plane);
-    for (const std::string& plane : kernel.outputs)
-        text += fmt::format("    global WR_SCALAR *restrict out_{},\n", identifier(plane).substr(3));
-    text += "    uint in_first, uint in_pixels, uint first_row, uint width, uint items";
-    if (plan.blocks) text += ", uint block_rows";
-    text += ")\n{\n    if (get_global_id(0) >= items) return;  // the global size is padded\n";
-    text +=
-        plan.blocks
-            ? "    wr_pixel_block at = wr_pixel_block_of(get_global_id(0), in_first, first_row, width, block_rows);\n"
-            : "    wr_pixels at = wr_pixels_of(get_global_id(0), in_first, first_row, width);\n";
-    for (const Value& value : values())
-        if (used.contains(value.name)) text += declare(value);
-    text += load;
-    for (const Section* section : sections) {
-        kernel.operations += section->operations;
-        text += fmt::format("\n    // stage {}: {}\n    {{\n{}    }}\n", section->stage,
-                            *section->kind ? section->kind : section->title, section->body);
-        std::vector<SectionSummary> told = section->parts;
-        if (told.empty())
-            told = {{0, section->title, {section->inputs.begin(), section->inputs.end()}, section->operations}};
-        for (SectionSummary& part : told) {
-            part.stage = section->stage;
-            plan.sections.push_back(std::move(part));
-        }
-    }
-    text += store + "}\n\n";
-    return kernel;
 }
 
 /// The scene's numbers as text, under the name by which kernels know those in memory.
@@ -266,23 +213,15 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
 
     // Blocks may overlap, so a pixel may be computed twice. Split kernels add to planes in memory and would add to such
     // a pixel twice; and the code that loads neighbours expects a work-item's pixels one after another, not as a block.
-    plan.blocks = plan.tiles && !plan.neighbours && !options.split;
+    // The same holds where values are added up over pixels of the picture.
+    plan.blocks = plan.tiles && !plan.neighbours && !options.split && plan.sums_over == 1;
 
+    add_kernels(plan, sections, options, plan.sums_over);
     std::set<std::string> inputs;
-    const auto add_kernel = [&](const std::string& name, const std::vector<const Section*>& together) {
-        plan.kernels.push_back(emit_kernel(plan, name, together, options.split, options.compiled_numbers));
-        const PlannedKernel& kernel = plan.kernels.back();
+    for (const PlannedKernel& kernel : plan.kernels) {
         inputs.insert(kernel.inputs.begin(), kernel.inputs.end());
         plan.outputs.insert(plan.outputs.end(), kernel.outputs.begin(), kernel.outputs.end());
-    };
-    std::vector<const Section*> all;
-    for (const Section& section : sections) {
-        if (options.split)
-            add_kernel(fmt::format("wr_section_{}", plan.kernels.size()), {&section});
-        else
-            all.push_back(&section);
     }
-    if (!options.split) add_kernel("wr_evaluate", all);
     plan.inputs.assign(inputs.begin(), inputs.end());
     plan.bytes = sizeof(float) * static_cast<double>(plan.inputs.size() + plan.outputs.size());
     for (const PlannedKernel& kernel : plan.kernels)

@@ -36,7 +36,8 @@ std::string object_text(Emitter& emitter, const MaskPlace& place, Section& secti
         count, first);
 }
 
-/// Text that declares `covered`, the share of the pixel that objects of a Cryptomatte cover.
+/// Text that declares `covered`, the share of the pixel that objects of a Cryptomatte cover; of a mask for bumps, as
+/// far as their surface is the pixel's.
 std::string cryptomatte_text(Emitter& emitter, const MaskPlace& place, Section& section) {
     emitter.need(place.who, {"crypto.id0", "crypto.coverage0"});
     // A float cannot hold 32 bits, so a hash is passed as two halves.
@@ -48,7 +49,9 @@ std::string cryptomatte_text(Emitter& emitter, const MaskPlace& place, Section& 
     };
     const std::size_t count = halves({emitter.scene, emitter.available.cryptomatte}).size() / 2;
     const std::size_t first = add_numbers(emitter, "mask cryptomatte of " + place.what, halves);
-    std::string text = "        wr_real covered = 0;\n";
+    // Frames that somebody else made lack the plane; there Cryptomatte's first rank, which covers most, is in front.
+    const std::string front = emitter.has("crypto.front") ? "crypto.front" : "crypto.id0";
+    std::string text = fmt::format("        wr_real covered = 0{};\n", place.bumps ? ", in_front = 0" : "");
     const std::string hash = "uint object_hash = (uint)numbers[{0}] << 16 | (uint)numbers[{0} + 1];\n";
     if (count == 1)
         text += "        " + fmt::format(fmt::runtime(hash), first);
@@ -63,7 +66,14 @@ std::string cryptomatte_text(Emitter& emitter, const MaskPlace& place, Section& 
             identifier(id), identifier(coverage));
         section.operations += 3 * static_cast<double>(count);
     }
-    return text + (count == 1 ? "" : "        }\n");
+    if (!place.bumps) return text + (count == 1 ? "" : "        }\n");
+    section.inputs.insert(front);
+    const std::string load = fmt::format("wr_load_floats({}, at.in)", identifier(front));
+    return text +
+           fmt::format("        in_front += wr_mask_cryptomatte({}, (wr_real)(1), object_hash);\n{}", load,
+                       count == 1 ? "" : "        }\n") +
+           fmt::format("        covered = wr_mask_front({}, in_front, covered, {});\n", load,
+                       place.mask(emitter.scene).invert ? 1 : 0);
 }
 
 }  // namespace
@@ -71,7 +81,8 @@ std::string cryptomatte_text(Emitter& emitter, const MaskPlace& place, Section& 
 MaskPlace mask_of_layer(const Emitter& emitter, const Layer& layer) {
     return {
         layer_label(layer), layer_label(layer) + ": its mask",
-        [index = emitter.index_of(layer)](const Scene& scene) -> const Mask& { return scene.layers.at(index).mask; }};
+        [index = emitter.index_of(layer)](const Scene& scene) -> const Mask& { return scene.layers.at(index).mask; },
+        /*bumps=*/true};
 }
 
 std::string mask_of_planes(Emitter& emitter, const MaskPlace& place, Section& section) {

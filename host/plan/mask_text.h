@@ -15,6 +15,7 @@ struct MaskPlace {
     std::string what;  ///< it is of: `layer "dents"`
     std::string who;   ///< starts messages
     std::function<const Mask&(const Scene&)> mask;
+    bool bumps = false;  ///< it is for the surface that the pixel's geometry is of, not for all that a picture shows
 };
 
 MaskPlace mask_of_layer(const Emitter& emitter, const Layer& layer);

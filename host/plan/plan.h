@@ -37,6 +37,7 @@ struct Available {
     std::set<std::string> planes;  ///< names as in wrinkle/gbuffer.h
     CameraKind camera = CameraKind::pinhole;
     bool ray_depth = false;                            ///< the depth plane holds distances along rays
+    std::uint16_t beauty_scale = 1;                    ///< pixels along each side of a pixel of the picture
     std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of the known object names
     std::map<std::pair<std::string, std::string>, VolumeFacts> volumes{};  ///< by file and grid, as the scene has them
 };
@@ -157,6 +158,7 @@ struct Plan {
     bool neighbours = false;             ///< reads pixels of the rows above and below
     bool blocks = false;                 ///< work-items may evaluate blocks of pixels instead of rows
     bool specular_apart = false;         ///< what the picture shows as specular is relit apart from the rest
+    std::uint32_t sums_over = 1;         ///< pixels along each side of a pixel of the picture, whose light is added up
     std::vector<SectionSummary> sections;
     double bytes = 0;  ///< expected per pixel: planes read and written once
     /// Rows of the lighting's table of lights, in the order of the device's table; nothing: it has none.

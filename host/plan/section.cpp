@@ -39,7 +39,15 @@ const std::vector<Value>& values() {
     };
     static const std::vector<Value> with_lights = [] {
         std::vector<Value> values = all;
-        for (std::size_t k = 0; k <= kMostPictures; ++k) values.push_back({lit_name(k), "wr_vec3", {".x", ".y", ".z"}});
+        const std::vector<const char*> parts{".x", ".y", ".z"};
+        for (std::size_t k = 0; k <= kMostPictures; ++k) values.push_back({lit_name(k), "wr_vec3", parts});
+        static std::vector<std::string> without_bumps;  // the names' letters stay where they are
+        without_bumps.reserve(values.size());
+        for (const Value& lit : std::vector(values)) {
+            if (!std::string_view(lit.name).starts_with("lit")) continue;
+            without_bumps.push_back(old_name(lit.name));
+            values.push_back({without_bumps.back().c_str(), "wr_vec3", parts});
+        }
         return values;
     }();
     return with_lights;

@@ -27,6 +27,7 @@ struct Section {
     std::vector<std::string> outputs;
     double operations = 0;
     int stage = 0;
+    bool summed = false;                  ///< what it writes is then taken as the mean over each pixel of the picture
     std::vector<SectionSummary> parts{};  ///< what `explain` lists; empty: the section itself
     bool area =
         false;  ///< a layer whose body is evaluated at several points of a pixel's area; it has, before the first:
@@ -156,7 +157,12 @@ bool has_light_table(const Emitter& emitter);
 struct LightEnd {
     bool at_taps = false;  ///< every term of the light is its mean over the points of the pixel's area
     bool spread = false;   ///< the covariance of the slopes is known
+    bool summed = false;   ///< every term, new and old, is its mean over a pixel of the picture
 };
+/// Whether a picture is relit that has fewer pixels than the frame: by the sums of the light on the pixels of each.
+bool sums_light(const Emitter& emitter);
+/// The terms of the light, with and without bumps, to be added up.
+Section emit_light_terms(Emitter& emitter, const LightEnd& end);
 Section emit_lighting(Emitter& emitter, const LightEnd& end);
 /// A radiance that lighting needs of every normal: the value that holds it, and the text that computes it, with {p},
 /// {n} and {roughness} for what stands there.

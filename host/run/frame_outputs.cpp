@@ -12,6 +12,7 @@
 #include "layers/kinds.h"
 #include "plan/own_gradient.h"
 #include "run/output_names.h"
+#include "run/shrink_rows.h"
 #include "scene/check_scene.h"
 #include "wrinkle/error.h"
 
@@ -55,6 +56,27 @@ Metadata header_of(const Scene& scene, const GBufferReader& reader, bool passthr
     return metadata;
 }
 
+/// A window of a picture that has one pixel where this has scale x scale.
+FrameWindow shrunk(const FrameWindow& window, std::uint32_t scale) {
+    const auto times = static_cast<int>(scale);
+    return {window.x / times, window.y / times, {window.display.width / scale, window.display.height / scale}};
+}
+
+/// Throws Error where files that a scene wants would hold planes of two sizes.
+void check_sizes(const Scene& scene, const GBufferReader& reader, const OutputNames& names) {
+    if (reader.beauty_scale() == 1) return;
+    const std::string sizes = fmt::format("{}: its beauty has one pixel where it has {} x {}", reader.path().string(),
+                                          reader.beauty_scale(), reader.beauty_scale());
+    if (names.is_single() && names.is_lit() && !scene.output.beauty_size)
+        throw Error(sizes +
+                    ", so one file cannot hold both normals and light; set size = \"beauty\" in [output], or put "
+                    "<picture> into its name");
+    if (scene.output.passthrough && scene.output.beauty_size)
+        throw Error(sizes +
+                    ", so what passthrough copies does not fit size = \"beauty\" in [output]; leave one of them "
+                    "out");
+}
+
 }  // namespace
 
 std::vector<fs::path> inputs_of(const Scene& scene, const GBufferReader& reader, int frame) {
@@ -78,20 +100,25 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
     const Output& output = scene.output;
     const Metadata metadata = header_of(scene, reader, output.passthrough);
     const OutputNames names(scene, directory, frame);
-    const auto add = [&](const fs::path& path, std::vector<std::string> planes, std::vector<std::string> channels,
-                         PngEncoding encoding, std::set<std::string> full = {}, std::set<std::string> whole = {}) {
+    check_sizes(scene, reader, names);
+    width_ = pass.size.width;
+    const std::uint32_t lit_scale = reader.beauty_scale(), data_scale = output.beauty_size ? lit_scale : 1;
+    const auto add = [&](const fs::path& path, std::uint32_t scale, std::vector<std::string> planes,
+                         std::vector<std::string> channels, PngEncoding encoding, std::set<std::string> full = {},
+                         std::set<std::string> whole = {}) {
         ImageOptions options{.half = output.half,
                              .full = std::move(full),
                              .whole = std::move(whole),
                              .compression = output.compression,
-                             .window = reader.window(),
+                             .window = shrunk(reader.window(), scale),
                              .metadata = metadata,
                              .provenance = provenance,
                              .png = encoding,
                              .png_bits = output.png,
                              .exposure = scene.lighting.exposure};
+        const Size size{pass.size.width / scale, pass.size.height / scale};
         files_.push_back(
-            {path, std::move(planes), ImageWriter(path, pass.size, std::move(channels), std::move(options))});
+            {path, std::move(planes), ImageWriter(path, size, std::move(channels), std::move(options)), scale});
     };
 
     std::vector<std::string> planes, channels;
@@ -132,13 +159,15 @@ FrameOutputs::FrameOutputs(const Scene& scene, const Pass::Impl& pass, const GBu
             full.insert(channel);
         }
     }
-    add(names.exr("normal"), planes, channels, PngEncoding::linear, std::move(full), std::move(whole));
-    if (names.is_lit() && !names.is_single()) add(names.exr("lit"), with_alpha, colors_alpha, PngEncoding::linear);
+    add(names.exr("normal"), data_scale, planes, channels, PngEncoding::linear, std::move(full), std::move(whole));
+    if (names.is_lit() && !names.is_single())
+        add(names.exr("lit"), lit_scale, with_alpha, colors_alpha, PngEncoding::linear);
     if (names.wants("normal"))
-        add(names.png("normal"), {"out:normal.x", "out:normal.y", "out:normal.z"}, colors, PngEncoding::normal);
-    if (names.wants("lit")) add(names.png("lit"), lit, colors, PngEncoding::srgb);
+        add(names.png("normal"), data_scale, {"out:normal.x", "out:normal.y", "out:normal.z"}, colors,
+            PngEncoding::normal);
+    if (names.wants("lit")) add(names.png("lit"), lit_scale, lit, colors, PngEncoding::srgb);
     if (names.wants("before"))
-        add(names.png("before"), {"beauty.r", "beauty.g", "beauty.b"}, colors, PngEncoding::srgb);
+        add(names.png("before"), lit_scale, {"beauty.r", "beauty.g", "beauty.b"}, colors, PngEncoding::srgb);
 }
 
 FrameOutputs FrameOutputs::single(const fs::path& file, const Scene& scene, const Pass::Impl& pass,
@@ -166,7 +195,13 @@ void FrameOutputs::write(std::uint32_t begin, std::uint32_t end, const std::map<
     for (File& file : files_) {
         std::vector<const float*> rows;
         for (const std::string& plane : file.planes) rows.push_back(planes.at(plane));
-        file.writer.write_rows(begin, end, rows);
+        if (file.scale == 1) {
+            file.writer.write_rows(begin, end, rows);
+            continue;
+        }
+        const std::vector<std::vector<float>> few = shrink_rows(file.planes, rows, width_, end - begin, file.scale);
+        std::ranges::transform(few, rows.begin(), [](const std::vector<float>& plane) { return plane.data(); });
+        file.writer.write_rows(begin / file.scale, end / file.scale, rows);
     }
 }
 

@@ -46,9 +46,11 @@ private:
         std::filesystem::path path;
         std::vector<std::string> planes;
         ImageWriter writer;
+        std::uint32_t scale = 1;  ///< pixels of the frame along each side of one of its own
     };
 
     std::vector<File> files_;
+    std::size_t width_ = 0;  ///< of the rows that come
     std::vector<std::string> passed_;
 };
 

@@ -1,6 +1,7 @@
 #include "run/frame_run.h"
 
 #include <algorithm>
+#include <numeric>
 #include <thread>
 
 #include <fmt/format.h>
@@ -21,10 +22,11 @@ constexpr std::size_t kMostCores = 16;  // memory is bounded on any machine
 /// Bands from reading to written: more than stages, as the time that a band takes to decompress or compress varies.
 constexpr std::uint32_t kInFlight = 5;
 
-std::uint32_t band_rows(Size size) {
+std::uint32_t band_rows(Size size, std::uint32_t scale) {
     const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 2, kMostCores);
-    const std::size_t blocks = std::max<std::size_t>(cores * kCorePixels / size.width / kBlockRows, 1);
-    return static_cast<std::uint32_t>(std::min<std::size_t>(blocks * kBlockRows, size.height));
+    const std::size_t step = std::lcm(kBlockRows, scale);  // bands hold whole rows of the picture, too
+    const std::size_t blocks = std::max<std::size_t>(cores * kCorePixels / size.width / step, 1);
+    return static_cast<std::uint32_t>(std::min<std::size_t>(blocks * step, size.height));
 }
 
 void add_missing(std::vector<std::string>& names, const std::vector<std::string>& more) {
@@ -36,7 +38,7 @@ void add_missing(std::vector<std::string>& names, const std::vector<std::string>
 
 void FrameRun::check_bands(BandCheck& check, const Camera& camera) {
     check_ = &check;
-    check.start(camera, band_rows(pass_.size));
+    check.start(camera, band_rows(pass_.size, reader_.beauty_scale()));
 }
 
 double FrameRun::run(const std::function<void(double)>& progress) {
@@ -45,7 +47,7 @@ double FrameRun::run(const std::function<void(double)>& progress) {
     if (check_ != nullptr) add_missing(names_, check_->inputs());
     if (condition_ != nullptr) add_missing(names_, condition_->inputs());
     const Size size = pass_.size;
-    const std::uint32_t rows = band_rows(size), halo = pass_.plan.neighbours ? 1 : 0;
+    const std::uint32_t rows = band_rows(size, reader_.beauty_scale()), halo = pass_.plan.neighbours ? 1 : 0;
     const double bytes_of_pixel =
         static_cast<double>(sizeof(float) * names_.size() + pass_.bytes_per_output() * pass_.plan.outputs.size());
     check_memory(reader_.path().string(), kInFlight * bytes_of_pixel * size.width * (rows + 2 * halo),
@@ -99,12 +101,12 @@ cl::Event FrameRun::enqueue(const Slot& slot, const Rows& rows) {
 }
 
 void FrameRun::evaluate(Slot& slot) {
-    if (!pass_.warm) {  // drivers finish compiling at the first call: one row, counted as building
+    if (!pass_.warm) {  // drivers finish compiling at the first call: rows of one pixel, counted as building
         clock_.measure(PhaseClock::build, [&] {
-            Rows row = slot.rows;
-            row.after += row.count - 1;
-            row.count = 1;
-            enqueue(slot, row).wait();
+            Rows few = slot.rows;
+            few.count = pass_.plan.sums_over;
+            few.after += slot.rows.count - few.count;
+            enqueue(slot, few).wait();
         });
         pass_.warm = true;
     }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/cryptomatte.h"
+#include "io/front_objects.h"
 #include "layers/kinds.h"
 #include "plan/section.h"
 
@@ -103,6 +104,11 @@ void MaskMatches::see(const std::map<std::string, const float*>& planes, std::si
                 static_cast<std::uint64_t>(std::count_if(object->second, object->second + pixels, io::is_mixed_object));
         }
     }
+    if (const auto front = planes.find(std::string(io::kFrontPlane)); front != planes.end()) {
+        front_pixels_ += pixels;
+        unknown_pixels_ += static_cast<std::uint64_t>(
+            std::count_if(front->second, front->second + pixels, [](float id) { return id == 0 && std::signbit(id); }));
+    }
     for (int rank = 0; !ids_.unseen.empty(); ++rank) {
         const auto id = planes.find(fmt::format("crypto.id{}", rank));
         const auto coverage = planes.find(fmt::format("crypto.coverage{}", rank));
@@ -133,6 +139,28 @@ std::string MaskMatches::shown(const Labels& labels, bool names) const {
     return texts.empty() ? "nothing" : listed(texts, labels.more);
 }
 
+std::vector<std::string> MaskMatches::warnings_of_pixels() const {
+    std::vector<std::string> lines;
+    const double mixed =
+        static_cast<double>(mixed_pixels_) / static_cast<double>(std::max<std::uint64_t>(object_pixels_, 1));
+    const bool asked_for = std::ranges::any_of(
+        wanted_, [](const Wanted& wanted) { return io::is_mixed_object(static_cast<float>(wanted.index)); });
+    if (mixed >= kManyMixed && !asked_for)
+        lines.push_back(fmt::format(
+            "object numbers: {:.1f}% of the pixels hold no whole number but the average of several objects, and "
+            "belong to none of them; render the object pass with one sample a pixel, or mask by Cryptomatte",
+            100 * mixed));
+    const double unknown =
+        static_cast<double>(unknown_pixels_) / static_cast<double>(std::max<std::uint64_t>(front_pixels_, 1));
+    if (unknown >= kManyMixed)
+        lines.push_back(fmt::format(
+            "Cryptomatte: {:.1f}% of the pixels show several objects, and nothing tells which of them the depth and "
+            "normal passes are of; masks by Cryptomatte bump none of them there. Render those passes with one sample a "
+            "pixel, an object index pass beside them, or mask by that",
+            100 * unknown));
+    return lines;
+}
+
 std::vector<std::string> MaskMatches::warnings() const {
     std::vector<std::string> lines;
     for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
@@ -153,15 +181,7 @@ std::vector<std::string> MaskMatches::warnings() const {
         }
         if (!line.empty()) lines.push_back(layers_[layer] + ": " + line);
     }
-    const double mixed =
-        static_cast<double>(mixed_pixels_) / static_cast<double>(std::max<std::uint64_t>(object_pixels_, 1));
-    const bool asked_for = std::ranges::any_of(
-        wanted_, [](const Wanted& wanted) { return io::is_mixed_object(static_cast<float>(wanted.index)); });
-    if (mixed >= kManyMixed && !asked_for)
-        lines.push_back(fmt::format(
-            "object numbers: {:.1f}% of the pixels hold no whole number but the average of several objects, and "
-            "belong to none of them; render the object pass with one sample a pixel, or mask by Cryptomatte",
-            100 * mixed));
+    for (std::string& line : warnings_of_pixels()) lines.push_back(std::move(line));
     return lines;
 }
 

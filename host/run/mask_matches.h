@@ -26,7 +26,7 @@ public:
     /// Pixels as they were read; of the planes, only object and crypto.* are looked at.
     void see(const std::map<std::string, const float*>& planes, std::size_t pixels);
     /// A line for each layer that names objects which no pixel of any frame showed, with what the frames show; and one
-    /// if many pixels mix objects.
+    /// if many pixels mix objects, or nothing tells which of several is in front.
     std::vector<std::string> warnings() const;
 
 private:
@@ -47,6 +47,7 @@ private:
     void add(const Mask& mask, std::size_t layer);
     void look(Labels& labels, const float* values, const float* coverages, std::size_t pixels);
     double number_of(std::uint32_t label) const;
+    std::vector<std::string> warnings_of_pixels() const;
     std::string shown(const Labels& labels, bool names) const;
 
     std::vector<std::string> layers_;  ///< labels
@@ -55,6 +56,7 @@ private:
     std::map<std::uint32_t, std::string> names_;  ///< of ids, as the frames know them
     io::ObjectStorage storage_ = io::ObjectStorage::single;
     std::uint64_t object_pixels_ = 0, mixed_pixels_ = 0;
+    std::uint64_t front_pixels_ = 0, unknown_pixels_ = 0;  ///< those whose object in front was looked for, not found
 };
 
 }  // namespace wrinkle

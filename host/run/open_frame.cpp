@@ -50,11 +50,13 @@ Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamer
                                 reader.path().string(), reader.roles().channel_of.at("normal.x")));
     Frame frame{.size = reader.size(), .camera = camera.camera, .planes = {}, .ray_depth = false, .cryptomatte = {}};
     for (const std::string& plane : reader.planes()) frame.planes.insert(plane);
-    for (const std::string& channel : reader.channels()) frame.planes.insert("channel:" + channel);
+    for (const std::vector<std::string>& channels : {reader.channels(), reader.beauty_channels()})
+        for (const std::string& channel : channels) frame.planes.insert("channel:" + channel);
     if (!camera.depth_fits && scene.gbuffer.geometry == Geometry::automatic) frame.planes.erase("depth");
     frame.ray_depth = camera.depth.value_or(reader.roles().depth) == DepthKind::ray;
     if (scene.gbuffer.depth != DepthKind::automatic) frame.ray_depth = scene.gbuffer.depth == DepthKind::ray;
     frame.cryptomatte = cryptomatte_hashes(scene, reader);
+    frame.beauty_scale = reader.beauty_scale();
     return frame;
 }
 

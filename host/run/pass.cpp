@@ -40,7 +40,8 @@ void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::strin
         throw Error("outputs are double if and only if the pass is built with fp64");
     refuse_shared_memory(in, impl.plan.inputs, out, impl.plan.outputs);
 
-    const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width, 1, height);
+    const std::size_t least = impl.plan.sums_over;
+    const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width / least * least, least, height);
     const std::size_t halo = impl.plan.neighbours ? 1 : 0;
     PlaneBuffers inputs(impl.device, impl.plan.inputs, width * (rows + 2 * halo), sizeof(float));
     PlaneBuffers outputs(impl.device, impl.plan.outputs, width * rows, sizeof(T));

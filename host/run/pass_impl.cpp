@@ -79,12 +79,22 @@ void check_alignment(const cl::Buffer& buffer, const std::string& name, std::siz
 
 bool same_shape(const Frame& a, const Frame& b) {
     return a.size == b.size && a.planes == b.planes && a.ray_depth == b.ray_depth && a.cryptomatte == b.cryptomatte &&
-           camera_kind(a.camera, a.size) == camera_kind(b.camera, b.size);
+           a.beauty_scale == b.beauty_scale && camera_kind(a.camera, a.size) == camera_kind(b.camera, b.size);
 }
 
 Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options) {
     if (frame.size.width == 0 || frame.size.height == 0) throw Error("the frame has no pixels");
-    Available available{frame.planes, camera_kind(frame.camera, frame.size), frame.ray_depth, frame.cryptomatte};
+    if (frame.beauty_scale == 0 || frame.size.width % frame.beauty_scale != 0 ||
+        frame.size.height % frame.beauty_scale != 0)
+        throw Error(
+            fmt::format("the frame has {} x {} pixels, which are no whole pixels of a beauty that has one for "
+                        "{} along each side",
+                        frame.size.width, frame.size.height, frame.beauty_scale));
+    Available available{.planes = frame.planes,
+                        .camera = camera_kind(frame.camera, frame.size),
+                        .ray_depth = frame.ray_depth,
+                        .beauty_scale = static_cast<std::uint16_t>(frame.beauty_scale),
+                        .cryptomatte = frame.cryptomatte};
     for (const Layer& layer : scene.layers)
         if (const LayerKind& kind = kind_of(layer_kinds(), layer); kind.look) kind.look(layer, available);
     return make_plan(scene, available, options);
@@ -192,6 +202,9 @@ std::vector<TileBins*> Pass::Impl::tile_bins() {
 
 cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, const Rows& rows,
                               const std::vector<cl::Event>& wait, std::span<const Items> some) {
+    if (some.empty() && (rows.first % plan.sums_over != 0 || rows.count % plan.sums_over != 0))
+        throw Error(fmt::format("rows {} to {} of the frame are no whole rows of its picture, which has one for {}",
+                                rows.first, rows.first + rows.count, plan.sums_over));
     const std::size_t pixels = std::size_t{rows.count} * size.width;
     const auto lanes = static_cast<std::size_t>(options.lanes);
     const std::size_t block_rows = lanes / WR_BLOCK_WIDTH;

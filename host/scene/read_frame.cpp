@@ -232,6 +232,7 @@ void read_output(Table& table, Output& out) {
     table.read("marked", out.marked);
     table.read("layers", out.layers);
     table.read("condition", out.condition, Compiled::no);
+    table.choose("size", out.beauty_size, {{"data", false}, {"beauty", true}}, Compiled::no);
     table.read("passthrough", out.passthrough, Compiled::no);
     table.read("half", out.half, Compiled::no);
     read_png(table, out);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/mixed_normals.h"
 #include "plan/layer_text.h"
 #include "plan/section.h"
 #include "resources/texture_heap.h"
@@ -37,6 +38,13 @@ std::string uv_problem(const GBufferInfo& info) { return problem_of_uv(info.role
 
 std::vector<std::string> frame_warnings(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera) {
     std::vector<std::string> lines = camera.doubts;
+    constexpr double kManyMixed = 0.003;
+    if (const double mixed = io::mixed_normals(reader); mixed >= kManyMixed)
+        lines.push_back(fmt::format(
+            "normals: {:.1f}% of the pixels hold the mean of several surfaces' (they are shorter than 0.9), as do the "
+            "other passes there, so edges are bumped as if one surface lay in between; render the data passes with one "
+            "sample a pixel, or larger than the picture and without a filter (beauty = {{ file = ... }} in [gbuffer])",
+            100 * mixed));
     const auto layer = std::ranges::find_if(scene.layers, uses_uv_pass);
     if (layer == scene.layers.end()) return lines;
     if (const std::string uv = problem_of_uv(reader.roles(), io::uv_digits(reader)); !uv.empty())

@@ -38,7 +38,8 @@ struct GBufferSource {
     VDirection v = VDirection::automatic;
     std::string view{};   ///< of a stereo frame; empty: the first one, which is the file's default
     std::string layer{};  ///< view layer; empty: the one with most roles
-    /// The picture, where another file has it: of the same size; may hold the patterns of `file`.
+    /// The picture, where another file has it: of the same size, or smaller by a whole factor; may hold the patterns of
+    /// `file`.
     std::filesystem::path beauty_file{};
     std::string beauty_layer{};  ///< of that file; empty: the one that is called as pictures are
     bool overscan = false;       ///< what the data window holds around the picture belongs to the frame

@@ -27,6 +27,8 @@
 ///   specular_direct, _indirect, _color             ... three such parts
 ///   beauty      beauty.r .g .b                     the finished picture, linear
 ///   cryptomatte crypto.id0 crypto.coverage0 ...    ranked pairs; id is float bits
+/// Beside these, crypto.front has the id of the object whose surface the geometry is of (0: none is known); without it
+/// that is taken to be crypto.id0.
 /// Any other channel of the file is the plane "channel:NAME".
 ///
 ///     for (const wrinkle::Role& role : wrinkle::gbuffer_roles())

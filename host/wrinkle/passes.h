@@ -33,8 +33,11 @@ namespace [[gnu::visibility("default")]] wrinkle {
 struct Frame {
     Size size;
     Camera camera;
-    std::set<std::string> planes;                        ///< what the caller can give; names as in wrinkle/gbuffer.h
-    bool ray_depth = false;                              ///< "depth" is the distance along the ray, not planar
+    std::set<std::string> planes;  ///< what the caller can give; names as in wrinkle/gbuffer.h
+    bool ray_depth = false;        ///< "depth" is the distance along the ray, not planar
+    /// Pixels along each side of a pixel of the beauty, whose planes repeat it so often. Their light is added up before
+    /// the picture is multiplied by ratios of it. Rows begin at multiples of it, and bands have whole ones.
+    std::uint32_t beauty_scale = 1;
     std::map<std::string, std::uint32_t> cryptomatte{};  ///< hashes of names, for Cryptomatte masks
 };
 

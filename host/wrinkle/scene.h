@@ -47,6 +47,7 @@ struct Output {
     bool condition = false;    ///< how the normal magnifies input errors; by render(), not by a pass (run/condition.h)
     bool passthrough = false;  ///< copy the channels and metadata of the input
     bool half = false;         ///< 16-bit floats
+    bool beauty_size = false;  ///< the picture's, of all files, where it has fewer pixels; else of lit ones only
     int png = 8;               ///< bits of a channel, 8 or 16; 0: no PNGs
     std::vector<std::string> pictures{"normal", "lit", "before"};  ///< the PNGs that are wanted
     std::string name{};  ///< of EXR files, with a place for a frame number; "<picture>" in it: of all, each its own

@@ -47,6 +47,22 @@ TEST(Mask, CryptomatteComparesBits) {
     }
 }
 
+/// Bumps are for the object in front; where nobody knows it, for who covers nearly all.
+TEST(Mask, OnlyTheObjectInFrontIsBumped) {
+    const float known = std::bit_cast<float>(0x80000001u);  // bits count, so a denormal is an id
+    const Columns columns{{"front", {known, known, known, 0, -0.0f, 0, -0.0f, 0}},
+                          {"named", {1, 1, 0, 0, 0, 0, 0, 0}},
+                          {"covered", {0.25f, 1, 0.75f, 0.5f, 0.5f, 0.99f, 0.01f, 0}}};
+    const auto call = [](int invert) {
+        return fmt::format("wr_mask_front(wr_load_floats(in_front, at), named, covered, {})", invert);
+    };
+    for (const int lanes : all_lanes) {
+        const Results r = run_kernel({"", {call(0), call(1)}}, columns, {lanes, false});
+        EXPECT_EQ(r[0], (std::vector<double>{0.25, 1, 0, 0, 0, 0.99f, 0, 0})) << lanes << " lanes";
+        EXPECT_EQ(r[1], (std::vector<double>{1, 1, 0.75, 1, 1, 1, 0.01f, 0})) << lanes << " lanes";
+    }
+}
+
 TEST(Mask, ChannelIsClampedAndNanIsNothing) {
     const Columns columns{{"value", {-1, 0, 0.25f, 1, 7, NAN, INFINITY, -INFINITY, -0.0f}}};
     for (const bool fp64 : {false, true})

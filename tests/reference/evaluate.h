@@ -63,6 +63,7 @@ public:
 
         Surfel<T> s{here.position + frame_.rays().eye(), here.normal, out.base, {}, {}, false, {}, {}};
         if (frame_.has("object")) s.object = frame_.plane("object")[i];
+        if (frame_.has("crypto.id0")) s.front = frame_.front(i);
         s.coverage = [&](const std::string& name) { return frame_.coverage(i, name); };
         s.height_slope = [&](const std::string& name) { return frame_.height_slope(i, here, out.base, name); };
         s.vector = [&](const std::array<std::string, 3>& names) -> std::optional<Vec<T>> {

@@ -65,6 +65,11 @@ public:
         return cryptomatte_coverage<T>(pairs, cryptomatte_bits(name));
     }
 
+    /// The object whose surface pixel i shows: the frame's word for it, or the one that comes first.
+    std::uint32_t front(std::size_t i) const {
+        return std::bit_cast<std::uint32_t>(plane(has("crypto.front") ? "crypto.front" : "crypto.id0")[i]);
+    }
+
     Decoded<T> decode(std::size_t i) const {
         Decoded<T> d;
         const Vec<T> n = raw_normal(i);

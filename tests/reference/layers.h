@@ -174,7 +174,10 @@ LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextu
         for (const Entry& e : entries) {
             if (e.row.object && s.object != *e.row.object) continue;
             add_projector(e.row, e.texture, s, footprint,
-                          e.row.cryptomatte.empty() ? T(1) : s.coverage(e.row.cryptomatte), sum);
+                          e.row.cryptomatte.empty()
+                              ? T(1)
+                              : coverage_of_bumps(s.coverage(e.row.cryptomatte), s.front, {e.row.cryptomatte}, false),
+                          sum);
         }
         return {{}, sum};
     };

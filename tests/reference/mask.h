@@ -48,4 +48,17 @@ T cryptomatte_coverage(std::span<const std::pair<float, float>> ranks, std::uint
     return sum;
 }
 
+/// The coverage that bumps keep of it: all where one of `names` is in front, none behind another. An id of either zero
+/// says that nobody knows: then those keep it who cover all but 2 % of the pixel. `others`: what the bumps of all other
+/// objects lose by them.
+template <class T>
+T coverage_of_bumps(T covered, std::uint32_t front, const std::vector<std::string>& names, bool others) {
+    bool named = false;
+    for (const std::string& name : names) named = named || cryptomatte_bits(name) == front;
+    const bool nobody_knows = front == 0 || front == 0x80000000u;
+    if (others && !named && !(nobody_knows && covered > T(2) / 100)) return covered;
+    if (others) return 1;
+    return named || (nobody_knows && covered > T(98) / 100) ? covered : T(0);
+}
+
 }  // namespace wrinkle::reference

@@ -29,7 +29,7 @@ public:
         if (!mask_.cryptomatte.empty()) {
             T covered = 0;
             for (const std::string& name : mask_.cryptomatte) covered += s.coverage(name);
-            m *= covered;
+            m *= coverage_of_bumps(covered, s.front, mask_.cryptomatte, mask_.invert);
         }
         if (mask_.channel) m *= saturate(T(channel_[i]));
         if (mask_.texture) {

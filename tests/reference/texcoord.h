@@ -23,6 +23,7 @@ struct Surfel {
     std::function<std::optional<Vec2<T>>(const std::string&)> height_slope;  ///< of the plane of this name, per pixel
     std::optional<double> object{};                   ///< the object's index, if the frame has a plane of it
     std::function<T(const std::string&)> coverage{};  ///< by the Cryptomatte object of this name
+    std::uint32_t front = 0;                          ///< bits of the id of the one in front
     /// The vector that these three planes hold; nothing where it is not finite.
     std::function<std::optional<Vec<T>>(const std::array<std::string, 3>&)> vector{};
 };

@@ -120,6 +120,18 @@ TEST(MaskMatches, LookAtEveryRankThatCoversSomething) {
                                          "\"#40800004\"; the frame has #12345678, Rock, Wall"}));
 }
 
+TEST(MaskMatches, TellOfPixelsWhoseFrontNobodyKnows) {
+    MaskMatches matches(scene_of({on_name("a", "Rock")}));
+    matches.begin(frame());
+    const std::vector<float> front{std::bit_cast<float>(0x3f800001u), 0, -0.0f, -0.0f}, id(4, front[0]), all(4, 1);
+    matches.see({{"crypto.front", front.data()}, {"crypto.id0", id.data()}, {"crypto.coverage0", all.data()}}, 2);
+    EXPECT_EQ(matches.warnings(), Lines{}) << "0 is background";
+    matches.see({{"crypto.front", front.data()}, {"crypto.id0", id.data()}, {"crypto.coverage0", all.data()}}, 4);
+    ASSERT_EQ(matches.warnings().size(), 1u);
+    EXPECT_EQ(matches.warnings()[0].find("Cryptomatte: 33.3% of the pixels show several objects"), 0u)
+        << matches.warnings()[0];
+}
+
 TEST(MaskMatches, NameTheFirstRowOfADecal) {
     std::vector<Projector> rows(5);
     rows[1].object = 7, rows[1].line = 3;
