@@ -229,6 +229,7 @@ std::vector<std::string> GBufferReader::planes() const {
 
 void GBufferReader::require(std::span<const std::string> planes) const {
     for (const auto& plane : planes) {
+        if (plane == io::kFrontPlane && has_plane(plane)) continue;  // it is made from others
         const auto* place = impl_->place(plane);
         if (place == nullptr) io::fail_missing_plane(plane, impl_->channels, impl_->path);
         io::require_whole_ids(plane, *place, impl_->path);
