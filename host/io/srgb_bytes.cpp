@@ -1,5 +1,6 @@
 #include "io/srgb_bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -13,7 +14,10 @@ constexpr std::uint32_t kShift = 16;
 constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(0x1p-13f) >> kShift;
 constexpr std::uint32_t kLast = std::bit_cast<std::uint32_t>(1.0f) >> kShift;
 
-std::uint8_t rounded(float linear) { return static_cast<std::uint8_t>(srgb(linear) * 255 + 0.5f); }
+std::uint8_t rounded(float linear) {
+    constexpr float most = 255;
+    return static_cast<std::uint8_t>(std::min(srgb(linear) * most + 0.5f, most));
+}
 
 struct Table {
     Table() {

@@ -21,6 +21,7 @@
 #include "base/claim.h"
 #include "base/confined_process.h"
 #include "base/limits.h"
+#include "base/sanitizers.h"
 #include "io/grid_bytes.h"
 #include "wrinkle/error.h"
 
@@ -106,9 +107,7 @@ void limit_this_process(std::uint64_t seconds, std::uint64_t memory) {
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, seconds);
     limit(RLIMIT_FSIZE, memory);
-#ifndef __SANITIZE_ADDRESS__  // which reserves all of the address space
-    limit(RLIMIT_AS, memory);
-#endif
+    if constexpr (!kAddressSanitizer) limit(RLIMIT_AS, memory);  // it reserves all of the address space
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     confine_process();
 }

@@ -1,12 +1,10 @@
 #pragma once
 
+#include "base/sanitizers.h"
+
 namespace wrinkle::test {
 
 /// Whether the tests were built with a sanitizer, under which times and memory say nothing about the program.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
+inline constexpr bool kSanitized = kAddressSanitizer || kThreadSanitizer;
 
 }  // namespace wrinkle::test
