@@ -193,6 +193,10 @@ void explain(const ExplainArguments& arguments) {
         fmt::print("on {}, {} lanes: {}\n", on.device->info.name, on.device->info.lanes,
                    flags_of(*on.device, on.budget));
     if (on.budget) print_choice(*on.budget);
+    if (scene.budget.max_area_error)
+        fmt::print(
+            "\nmax_area_error {} degrees: a run measures which is the fewest taps, of {} at most, that keep it\n",
+            *scene.budget.max_area_error, scene.filter.taps);
     if (on.bins.decals) print_bins("decals", *on.bins.decals);
     if (on.bins.lights) print_bins("lights", *on.bins.lights);
     print_volumes(volumes);

@@ -33,7 +33,7 @@ struct RunArguments {
     std::vector<std::string> set;
     int threads = 0, repeat = 1, lanes = 0;
     bool quiet = false, json = false, resume = false, force = false, keep_going = false, strict = false;
-    std::optional<double> max_error;
+    std::optional<double> max_error, max_area_error;
     std::optional<int> sample, seed;
     std::optional<Precision> precision;
 };
@@ -60,6 +60,7 @@ public:
         if (file_ && (frame == frame_ || file_->frame_files.empty())) return *file_;
         scene::SceneFile file = load_scene_file(arguments_.scene, {.set = arguments_.set, .frame = frame});
         if (arguments_.max_error) file.scene.budget.max_error = arguments_.max_error;
+        if (arguments_.max_area_error) file.scene.budget.max_area_error = arguments_.max_area_error;
         if (arguments_.sample) file.scene.budget.sample = *arguments_.sample;
         if (arguments_.seed) file.scene.budget.seed = *arguments_.seed;
         file_ = std::move(file), frame_ = frame;
@@ -85,8 +86,10 @@ private:
 };
 
 RenderOptions options_of(const RunArguments& arguments, const Scene& scene) {
-    if ((arguments.sample || arguments.seed) && !scene.budget.max_error)
-        throw Error("--sample and --seed measure an error budget; give --max-error, or max_error in the scene");
+    if ((arguments.sample || arguments.seed) && !scene.budget.max_error && !scene.budget.max_area_error)
+        throw Error(
+            "--sample and --seed measure an error budget; give --max-error or --max-area-error, or max_error or "
+            "max_area_error in the scene");
     if (arguments.precision && scene.budget.max_error)
         throw Error("--precision and max_error exclude each other: an error budget chooses the precision");
     RenderOptions options;
@@ -220,11 +223,14 @@ void add_run(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(1, 10000));
     add_max_error_option(*command, arguments->max_error, "computes no more exactly than that takes, and measures it");
+    add_max_area_error_option(*command, arguments->max_area_error);
     command->add_option("--precision", arguments->precision, "of everything: standard (what is usual), exact or double")
         ->type_name("NAME")
         ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{
             {"standard", Precision::standard}, {"exact", Precision::exact}, {"double", Precision::fp64}}));
-    command->add_option("--sample", arguments->sample, "pixels that are measured, with --max-error (4096)")
+    command
+        ->add_option("--sample", arguments->sample,
+                     "pixels that are measured, with --max-error (4096); of areas 400 at most")
         ->type_name("N")
         ->check(CLI::Range(1, std::numeric_limits<int>::max()));
     command->add_option("--seed", arguments->seed, "which pixels (1)")

@@ -44,4 +44,13 @@ void add_max_error_option(CLI::App& command, std::optional<double>& max_error, c
         ->check(CLI::Range(std::numeric_limits<double>::min(), 180.0));
 }
 
+void add_max_area_error_option(CLI::App& command, std::optional<double>& max_area_error) {
+    command
+        .add_option("--max-area-error", max_area_error,
+                    "degrees by which 99% of the normals may miss the mean over their pixels' areas: takes the fewest "
+                    "taps that keep it, by measuring")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(std::numeric_limits<double>::min(), 180.0));
+}
+
 }  // namespace wrinkle::cli

@@ -20,5 +20,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& settings);
 Device open_device(const std::string& device, int lanes);
 /// Adds --max-error, which replaces a scene's own. `what` says in the help what the command does with it.
 void add_max_error_option(CLI::App& command, std::optional<double>& max_error, const std::string& what);
+/// --max-area-error.
+void add_max_area_error_option(CLI::App& command, std::optional<double>& max_area_error);
 
 }  // namespace wrinkle::cli

@@ -42,6 +42,25 @@ void print_budget(const BudgetReport& budget) {
                budget.measured.median, budget.measured.p99, budget.measured.max, budget.measured.samples, budget.seed);
 }
 
+void print_taps(const TapsChoice& choice) {
+    fmt::print("max_area_error {} degrees: {} of at most {} taps\n", choice.max_area_error, choice.taps, choice.most);
+    fmt::print("  measured {:.2g} degrees (median), {:.2g} (99%) on {} pixels, seed {}\n\n", choice.measured.median,
+               choice.measured.p99, choice.measured.samples, choice.seed);
+}
+
+nlohmann::json json_of(const TapsChoice& choice) {
+    return {{"max_area_error", choice.max_area_error},
+            {"taps", choice.taps},
+            {"most", choice.most},
+            {"ns_per_pixel", choice.ns},
+            {"measured",
+             {{"median", choice.measured.median},
+              {"p99", choice.measured.p99},
+              {"max", choice.measured.max},
+              {"pixels", choice.measured.samples}}},
+            {"seed", choice.seed}};
+}
+
 nlohmann::json json_of(const BudgetReport& budget) {
     return {{"max_error", budget.max_error},
             {"precision", budget.precision},
@@ -97,12 +116,13 @@ void print_table(const RenderReport& report) {
     fmt::print("  {:<22}{:>10.3f}\n", "upload (textures)", report.upload);
     fmt::print("  {:<22}{:>10.3f}\n", report.cache_hit ? "build (cache hit)" : "build (compiled)", report.build);
     fmt::print("  {:<22}{:>10.3f}   {:.2f} ns/pixel\n", "kernels", report.kernels, report.kernel_ns_per_pixel);
-    if (report.budget) fmt::print("  {:<22}{:>10.3f}\n", "check in double", report.check);
+    if (report.budget || report.taps) fmt::print("  {:<22}{:>10.3f}\n", "check in double", report.check);
     fmt::print("  {:<22}{:>10.3f}\n", "write", report.write);
     fmt::print("  {:<22}{:>10.3f}   {:.3f} of it outside read, kernels, write\n", "wall (phases overlap)", report.wall,
                report.outside);
     fmt::print("  {:<22}{:>10.0f}\n\n", "peak memory, MiB", static_cast<double>(report.peak_memory) / (1 << 20));
     if (report.budget) print_budget(*report.budget);
+    if (report.taps) print_taps(*report.taps);
     for (const auto& file : report.files) fmt::print("wrote {}\n", file.string());
 }
 
@@ -131,6 +151,7 @@ void print_json(const RenderReport& report, bool one_line) {
                                                 {"cameras", report.cameras},
                                                 {"fitted_lights", report.lights},
                                                 {"budget", report.budget ? json_of(*report.budget) : nlohmann::json()},
+                                                {"taps", report.taps ? json_of(*report.taps) : nlohmann::json()},
                                                 {"warnings", report.warnings},
                                                 {"files", names_of(report.files)}},
                                  one_line ? -1 : 2));

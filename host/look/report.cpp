@@ -57,8 +57,22 @@ TableRows timings(const RenderReport& run) {
             {"peak memory", fmt::format("{:.0f} MiB", static_cast<double>(run.peak_memory) / (1 << 20))}};
 }
 
+TableRows errors_of_areas(const RenderReport& run) {
+    if (!run.taps) return {};
+    const TapsChoice& choice = *run.taps;
+    return {{"max_area_error", fmt::format("{} degrees", choice.max_area_error)},
+            {"taps", fmt::format("{} of at most {}", choice.taps, choice.most)},
+            {"of pixels' areas",
+             fmt::format("{:.2g} degrees (median), {:.2g} (99%) on {} pixels, seed {}", choice.measured.median,
+                         choice.measured.p99, choice.measured.samples, choice.seed)}};
+}
+
 TableRows errors(const RenderReport& run) {
-    if (!run.budget) return {{"normals", "not measured; \"wrinkle run --max-error DEGREES\" does"}};
+    TableRows areas = errors_of_areas(run);
+    if (!run.budget) {
+        areas.emplace_back("normals", "not measured; \"wrinkle run --max-error DEGREES\" does");
+        return areas;
+    }
     const BudgetReport& budget = *run.budget;
     TableRows rows = {{"max_error", fmt::format("{} degrees", budget.max_error)},
                       {"precision", budget.precision},
@@ -67,6 +81,7 @@ TableRows errors(const RenderReport& run) {
                       {"largest", fmt::format("{:.1e} degrees", budget.measured.max)},
                       {"measured", fmt::format("{} pixels, seed {}", budget.measured.samples, budget.seed)}};
     for (const std::string& miss : budget.misses) rows.emplace_back("missed by", miss);
+    rows.insert(rows.end(), areas.begin(), areas.end());
     return rows;
 }
 

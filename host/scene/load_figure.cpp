@@ -69,7 +69,7 @@ Figure load_figure(LayerKinds kinds, const std::filesystem::path& file) {
         document.problems.add(root.line_of("gbuffer"),
                               "a figure shows one frame: name its files in [gbuffer] and [camera] without a place for "
                               "a number");
-    if (out.scene.budget.max_error)
+    if (out.scene.budget.max_error || out.scene.budget.max_area_error)
         root.document().problems.add(root.line_of("budget"),
                                      "figures are drawn as they are, not measured; remove [budget]");
     root.finish();

@@ -249,10 +249,14 @@ void read_output(Table& table, Output& out) {
 }
 
 void read_budget(Table& table, ErrorBudget& out) {
-    table.require("max_error");
     constexpr Range angle{.low = 0, .high = 180, .low_is_allowed = false};
-    double degrees = out.max_error.value_or(angle.high);
-    if (table.read("max_error", degrees, angle) && !table.visits()) out.max_error = degrees;
+    const auto read = [&](const char* key, std::optional<double>& budget) {
+        double degrees = budget.value_or(angle.high);
+        if (table.read(key, degrees, angle) && !table.visits()) budget = degrees;
+    };
+    if (!table.has("max_area_error")) table.require("max_error");
+    read("max_error", out.max_error);
+    read("max_area_error", out.max_area_error);
     table.read("sample", out.sample, 1, std::numeric_limits<int>::max());
     table.read("seed", out.seed, 0, std::numeric_limits<int>::max());
     table.finish();

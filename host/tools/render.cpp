@@ -72,13 +72,18 @@ private:
     }
 
     /// What was made for another scene goes, but the textures that both have.
-    void take(const Scene& scene) {
+    void take(Scene scene, int frame) {
+        // One number of taps for the whole run: a sequence would show where it changes.
+        if (scene.budget.max_area_error && !report_.taps)
+            report_.taps =
+                clock_.measure(PhaseClock::check, [&] { return choose_taps(scene, frame, options_.device); });
+        if (report_.taps) scene.filter.taps = report_.taps->taps;
         MaskMatches matches(scene);
         if (!matches_ || !matches_->looks_for_the_same(matches)) {
             if (matches_) add_new(report_.warnings, matches_->warnings());
             matches_ = std::move(matches);
         }
-        passes_.emplace(on_->device, scene, on_->store, clock_, report_);
+        passes_.emplace(on_->device, std::move(scene), on_->store, clock_, report_);
     }
 
     FrameReport::State render_frame(FrameReport& report) {
@@ -92,7 +97,7 @@ private:
         report_.lights = ahead.lights;
         if (!passes_ || ahead.scene != latest_) {
             latest_ = ahead.scene;
-            take(*ahead.scene);
+            take(*ahead.scene, report.frame);
             on_->store.keep_latest();
         }
         report_.cameras.push_back(ahead.open->camera);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "budget/budget.h"
+#include "tools/taps_choice.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
@@ -57,6 +58,7 @@ struct RenderReport {
     std::vector<std::string> cameras;  ///< a line a frame: origin and residual
     std::string lights;                ///< of those that were fitted to the picture; empty: none were
     std::optional<BudgetReport> budget;
+    std::optional<TapsChoice> taps;     ///< of a budget for areas; measured on the first frame, and kept
     std::vector<std::string> warnings;  ///< of frames whose passes hold too little, and masks that no pixel matches
 };
 

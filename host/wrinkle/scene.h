@@ -58,7 +58,10 @@ struct Output {
 /// How large an error of the normals may be, and how it is measured: a seeded sample of pixels is evaluated in double.
 struct ErrorBudget {
     std::optional<double> max_error;  ///< degrees, of any sampled pixel; nothing: standard precision, not measured
-    int sample = 4096;                ///< pixels
+    /// Degrees by which 99% of the sampled pixels may miss the mean over their areas: the fewest taps that keep it are
+    /// taken, up to those of the filter. Nothing: all of the filter's.
+    std::optional<double> max_area_error{};
+    int sample = 4096;  ///< pixels
     int seed = 1;
 };
 

@@ -42,6 +42,9 @@ TEST_F(BadScene, Budgets) {
     expect_problem_with("[budget]\nsample = 10\n", 5, {"[budget]", "max_error"});
     for (const char* value : {"0", "-0.1", "181", "inf", "nan", "\"small\""})
         expect_problem_with(std::string("[budget]\nmax_error = ") + value + "\n", 6, {"max_error", "[budget]"});
+    for (const char* value : {"0", "181", "nan", "\"small\""})
+        expect_problem_with(std::string("[budget]\nmax_area_error = ") + value + "\n", 6,
+                            {"max_area_error", "[budget]"});
     expect_problem_with("[budget]\nmax_error = 1\nsample = 0\n", 7, {"sample"});
     expect_problem_with("[budget]\nmax_error = 1\nseed = -1\n", 7, {"seed"});
     expect_problem_with("[budget]\nmax_erorr = 1\nmax_error = 1\n", 6, {"did you mean \"max_error\"?"});
