@@ -148,7 +148,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
             area.reads.insert(term.value), area.writes.insert(term.value);
             sums += fmt::format("        wr_vec3 {}_sum = wr_zero3();\n", term.value);
         }
-        area.operations += 20 + 75 * static_cast<double>(emitter.scene.lighting.lights.size());
+        area.operations += 20 + 75 * lights_of_pixel(emitter);
         sums += lit_surface_text(emitter, area);
     }
     if (use.spread) {

@@ -39,6 +39,11 @@ bool has_light_table(const Emitter& emitter) {
            !lighting.table->empty();
 }
 
+double lights_of_pixel(const Emitter& emitter) {
+    constexpr double kOfTable = 8;
+    return static_cast<double>(emitter.scene.lighting.lights.size()) + (has_light_table(emitter) ? kOfTable : 0);
+}
+
 namespace {
 
 /// Whether planes show a part of the picture: by themselves, or direct and indirect light and the colour both are
@@ -87,12 +92,6 @@ std::string LitTerm::of(const std::string& p, const std::string& n, const std::s
 namespace {
 
 constexpr double kLight = 75;  // expected operations, of one normal and one light
-
-/// Lights that a pixel expects: all without a table, and a few of it.
-double lights_of_pixel(const Emitter& emitter) {
-    constexpr double kOfTable = 8;
-    return static_cast<double>(emitter.scene.lighting.lights.size()) + (has_light_table(emitter) ? kOfTable : 0);
-}
 
 /// Text that loads a picture as a vector, and where it is finite.
 std::string load_text(Section& section, const std::string& name, const std::array<std::string, 3>& planes) {

@@ -153,6 +153,8 @@ Section emit_curvature();
 
 /// Whether the lighting has a table of lights.
 bool has_light_table(const Emitter& emitter);
+/// Lights that a pixel is expected to have: all without a table, and a few of it.
+double lights_of_pixel(const Emitter& emitter);
 /// What is known when the lighting is reached.
 struct LightEnd {
     bool at_taps = false;  ///< every term of the light is its mean over the points of the pixel's area
