@@ -173,11 +173,9 @@ LayerFunction<T> make_layer(const DecalsLayer& layer, bool footprint, SceneTextu
         Vec<T> sum;
         for (const Entry& e : entries) {
             if (e.row.object && s.object != *e.row.object) continue;
-            add_projector(e.row, e.texture, s, footprint,
-                          e.row.cryptomatte.empty()
-                              ? T(1)
-                              : coverage_of_bumps(s.coverage(e.row.cryptomatte), s.front, {e.row.cryptomatte}, false),
-                          sum);
+            const std::string& name = e.row.cryptomatte;
+            const T seen = name.empty() ? T(1) : coverage_of_bumps(s.coverage(name), s.front, {name}, false);
+            add_projector(e.row, e.texture, s, footprint, seen, sum);
         }
         return {{}, sum};
     };
@@ -195,14 +193,10 @@ LayerFunction<T> make_layer(const VolumeLayer& layer, bool footprint, SceneTextu
         const Vec<T> q = turned(s.position) + Vec<T>{T(m[0][3]), T(m[1][3]), T(m[2][3])};
         const T longest = std::max(length(turned(s.d.dp_dx)), length(turned(s.d.dp_dy)));
         const T lod = footprint ? std::log2(std::max(longest, T(1))) : T(0);
-        const auto sampled = [&](std::size_t c) {
-            return filtered_voxels<T>((*channels)[c],
-                                      [&](const Voxels<T>& voxel, Vec<T> at) {
-                                          return layer.filter == VolumeFilter::smooth ? quadratic_spline(voxel, at)
-                                                                                      : trilinear(voxel, at);
-                                      },
-                                      q, lod);
+        const auto at_point = [&](const Voxels<T>& voxel, Vec<T> at) {
+            return layer.filter == VolumeFilter::smooth ? quadratic_spline(voxel, at) : trilinear(voxel, at);
         };
+        const auto sampled = [&](std::size_t c) { return filtered_voxels<T>((*channels)[c], at_point, q, lod); };
         if (channels->size() == 3) return {{}, {sampled(0).value, sampled(1).value, sampled(2).value}};
         const NoiseValue<T> v = sampled(0);
         const Vec<T> dh_dp = row(0) * v.gradient.x + row(1) * v.gradient.y + row(2) * v.gradient.z;
