@@ -66,6 +66,10 @@ void write_job(const JobArguments& arguments) {
             stderr,
             "wrinkle: warning: this scene names no light, so that each task fits its own to its first frame, and "
             "tasks will differ; write them into the scene first, by \"wrinkle fit-lights\"\n");
+    if (file.scene.budget.max_area_error)
+        fmt::print(stderr,
+                   "wrinkle: warning: max_area_error is measured by each task on its first frame, and tasks may differ "
+                   "in taps; set [filter] taps in its place, by what \"wrinkle run\" of one frame reports\n");
     std::error_code failed;  // the file tells it better
     fs::create_directories(arguments.directory, failed);
     const fs::path path = arguments.directory / engine.file;

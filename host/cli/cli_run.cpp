@@ -142,7 +142,9 @@ public:
         });
         if (shown == numbers.end()) return;
         const scene::SceneFile& file = scenes.at(options.frames.empty() ? std::nullopt : std::optional(*shown));
-        write_report(file_, {.scene = file.scene,
+        Scene scene = file.scene;
+        if (report.taps) scene.filter.taps = report.taps->taps;
+        write_report(file_, {.scene = std::move(scene),
                              .run = report,
                              .frame = *shown,
                              .source = arguments.scene == "-" ? file.text : read_text(arguments.scene),
@@ -172,10 +174,11 @@ void run(const RunArguments& arguments) {
         check_can_be_read_again(arguments.scene);
         options.scene_of_frame = [&](int frame) { return scenes.at(frame).scene; };
     }
-    // Lights that are fitted are those of the first frame.
-    const std::string fitted = wants_lights(scene) && !frames.empty() ? fmt::format(" {}", frames.front()) : "";
-    options.provenance = [&, fitted](int frame) {
-        return frame_provenance(file.frame_files.empty() ? file : scenes.at(frame), options, frame) + fitted;
+    // Lights that are fitted are those of the first frame; so are the taps of a budget.
+    const bool measured = wants_lights(scene) || scene.budget.max_area_error;
+    const std::string first = measured && !frames.empty() ? fmt::format(" {}", frames.front()) : "";
+    options.provenance = [&, first](int frame) {
+        return frame_provenance(file.frame_files.empty() ? file : scenes.at(frame), options, frame) + first;
     };
     if (arguments.threads > 0) {
         // PoCL reads it when it starts.

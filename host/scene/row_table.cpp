@@ -19,12 +19,12 @@
 namespace wrinkle::scene {
 namespace {
 
-/// The most rows that a CSV text can hold: its lines but for those that are empty or a comment.
+/// The most rows that a CSV text can hold: its lines, whatever ends them, but for those that are empty or a comment.
 std::size_t rows_of_csv(std::string_view text) {
     std::size_t rows = 0;
     for (std::size_t at = 0; at < text.size();) {
         rows += std::string_view("\r\n#").find(text[at]) == std::string_view::npos ? 1 : 0;
-        const std::size_t end = text.find('\n', at);
+        const std::size_t end = text.find_first_of("\r\n", at);
         at = end == std::string_view::npos ? text.size() : end + 1;
     }
     return rows;

@@ -72,18 +72,26 @@ private:
     }
 
     /// What was made for another scene goes, but the textures that both have.
-    void take(Scene scene, int frame) {
-        // One number of taps for the whole run: a sequence would show where it changes.
-        if (scene.budget.max_area_error && !report_.taps)
-            report_.taps =
-                clock_.measure(PhaseClock::check, [&] { return choose_taps(scene, frame, options_.device); });
-        if (report_.taps) scene.filter.taps = report_.taps->taps;
+    void take(Scene scene) {
+        if (scene.budget.max_area_error) scene.filter.taps = taps_of_run().taps;
         MaskMatches matches(scene);
         if (!matches_ || !matches_->looks_for_the_same(matches)) {
             if (matches_) add_new(report_.warnings, matches_->warnings());
             matches_ = std::move(matches);
         }
         passes_.emplace(on_->device, std::move(scene), on_->store, clock_, report_);
+    }
+
+    /// One number for all frames, as a sequence would show where it changes: the one of the first, also where that is
+    /// done already.
+    const TapsChoice& taps_of_run() {
+        if (!report_.taps)
+            report_.taps = clock_.measure(PhaseClock::check, [&] {
+                const int first = frames_.front();
+                return choose_taps(options_.scene_of_frame ? options_.scene_of_frame(first) : scene_, first,
+                                   options_.device);
+            });
+        return *report_.taps;
     }
 
     FrameReport::State render_frame(FrameReport& report) {
@@ -97,7 +105,7 @@ private:
         report_.lights = ahead.lights;
         if (!passes_ || ahead.scene != latest_) {
             latest_ = ahead.scene;
-            take(*ahead.scene, report.frame);
+            take(*ahead.scene);
             on_->store.keep_latest();
         }
         report_.cameras.push_back(ahead.open->camera);

@@ -28,6 +28,13 @@ AreaOptions options_of(const Scene& scene, int frame, const std::string& device)
 TapsChoice choose_taps(const Scene& scene, int frame, const std::string& device) {
     const double allowed = scene.budget.max_area_error.value();
     const AreaErrors errors = measure_area(scene, options_of(scene, frame, device));
+    constexpr std::size_t fewest = 50;  // of fewer, 99% say nothing
+    if (const auto measured = errors.taps.front().degrees.samples; measured < fewest)
+        throw Error(
+            fmt::format("max_area_error needs {} pixels of surfaces whose areas can be integrated, and the run's first "
+                        "frame shows {} among those that were drawn; raise sample, begin with another frame, or set "
+                        "[filter] taps instead",
+                        fewest, measured));
     for (const TapsError& row : errors.taps)
         if (row.degrees.not_finite == 0 && row.degrees.p99 <= allowed)
             return {allowed, row.taps, scene.filter.taps, row.ns, row.degrees, scene.budget.seed};

@@ -88,6 +88,9 @@ TEST_F(DecalTable, TakesFarMoreMemoryThanItsFileOnlyWhenAllowed) {
     set_limits({.memory = 1, .sandbox = {}, .volume_reader = {}});
     DecalFolder::expect_refused("decals.toml", text, {"decals.toml: a table of 200000 decals would take 260 MB"});
     set_limits({});
+    text = "x,y,z\r";
+    for (int i = 0; i < 3'000'000; ++i) text += "1,2,3\r";
+    expect_refused(text, {"decals.csv: a table of 3000001 decals in a file of 18.0 MB"});
     EXPECT_EQ(read("decals.csv", "x,y,z\n" + std::string(3'000'000, '\n') + "1,2,3\n").size(), 1u) << "empty lines";
 }
 
