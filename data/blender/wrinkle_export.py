@@ -143,11 +143,11 @@ def light_values(item, beauty, light_groups):
             intensity=energy / (4 * math.pi),
         )
         if lamp.type == "SPOT":
-            outer = math.degrees(lamp.spot_size) / 2
+            outer = min(math.degrees(lamp.spot_size) / 2, 89.0)
             values.update(
                 direction=along,
-                inner_angle=outer * math.sqrt(1 - min(lamp.spot_blend, 0.99)),
-                outer_angle=min(outer, 89.0),
+                inner_angle=outer * min(math.sqrt(1 - min(lamp.spot_blend, 0.99)), 0.999),
+                outer_angle=outer,
             )
     values["color"] = color
     if light_groups:

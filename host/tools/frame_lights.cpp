@@ -116,12 +116,13 @@ private:
     std::map<std::string, std::vector<float>> planes_;
 };
 
-/// Where pixels are in the world: as the frame says, or by its depth as a pinhole camera sees it; else nobody knows.
+/// Where pixels are in the world: by their depth as a pinhole camera sees it, or as the frame says; else nobody knows.
 class Places {
 public:
-    Places(const ReadRows& rows, const Frame& frame)
+    Places(const ReadRows& rows, const Frame& frame, Geometry geometry)
         : rows_(rows), width_(frame.size.width), ray_depth_(frame.ray_depth) {
-        if (frame.planes.contains("depth")) rays_ = pinhole_rays(frame.camera, frame.size);
+        const bool by_position = geometry == Geometry::position && rows.has("position.x");
+        if (frame.planes.contains("depth") && !by_position) rays_ = pinhole_rays(frame.camera, frame.size);
     }
 
     /// Of pixel i of rows that begin with `first`.
@@ -163,6 +164,10 @@ std::optional<SeenSurface> surface_at(const ReadRows& rows, std::size_t i, const
     return out;
 }
 
+bool is_finite(const Vec3& v) {
+    return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
+}
+
 /// How far numbers of a fit can be trusted, by what it leaves unexplained.
 const char* trust(const LightFit& fit) {
     return fit.median < 0.08 && fit.p90 < 0.3 ? "they explain the picture well"
@@ -182,14 +187,14 @@ FrameLights lights_of_frame(const Scene& scene, int frame) {
     ReadRows rows(reader, {"depth", "position", "normal", "beauty", "albedo", "metallic", "emission", "transmission",
                            "transmission_direct", "transmission_indirect", "transmission_color", "specular",
                            "specular_direct", "specular_indirect", "specular_color"});
-    const Places places(rows, frame_of(scene, reader, camera));
+    const Places places(rows, frame_of(scene, reader, camera), scene.gbuffer.geometry);
     EvenDraw draw;
     for (std::uint32_t first = 0; first < reader.size().height; first += kRows) {
         const std::size_t count = rows.read(first, std::min(first + kRows, reader.size().height));
         for (std::size_t i = 0; i < count; ++i)
             if (auto surface = surface_at(rows, i, scene.lighting.albedo)) {
                 surface->place = places.at(i, first);
-                draw.add(*surface);
+                if (!surface->place || is_finite(*surface->place)) draw.add(*surface);
             }
     }
     const std::vector<SeenSurface> surfaces = draw.take();
@@ -200,8 +205,9 @@ FrameLights lights_of_frame(const Scene& scene, int frame) {
 
 bool wants_lights(const Scene& scene) {
     const Lighting& lighting = scene.lighting;
-    return lighting.relight == Relight::ratio && lighting.lights.empty() &&
-           (!lighting.table || lighting.table->empty()) && lighting.ambient == Vec3{};
+    const bool named = !lighting.lights.empty() || !lighting.table_file.empty() ||  // a file without any says that, too
+                       (lighting.table && !lighting.table->empty());
+    return lighting.relight == Relight::ratio && !named && lighting.ambient == Vec3{};
 }
 
 Scene with_lights(Scene scene, const FrameLights& lights) {

@@ -1,6 +1,7 @@
 // Lights of JSON files, as the Blender exporter writes them.
 #include "layers/kinds.h"
 #include "tests/scene/scene_folder.h"
+#include "tools/frame_lights.h"
 
 namespace wrinkle {
 namespace {
@@ -44,6 +45,15 @@ TEST_F(LightJson, IsThatOfTheFrame) {
     const scene::SceneFile file = load_scene_file(write("courtyard.toml", text), {.set = {}, .frame = 7});
     ASSERT_EQ(file.scene.lighting.lights.size(), 1u);
     EXPECT_EQ(file.scene.lighting.lights[0].intensity, 7);
+}
+
+TEST_F(LightJson, MaySayThatAFrameHasNoLights) {
+    write("frame.lights.json", R"({"lights": []})");
+    check(load_with(lit_));
+    const Scene scene = load_with("[lighting]\nrelight = \"ratio\"\nlights = \"frame.lights.json\"\n");
+    EXPECT_TRUE(scene.lighting.lights.empty());
+    EXPECT_FALSE(wants_lights(scene)) << "and none are fitted";
+    check(scene);
 }
 
 TEST_F(LightJson, TellsWhichLightIsWrong) {
