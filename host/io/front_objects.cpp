@@ -4,152 +4,165 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <map>
+#include <optional>
 
-#include "io/background.h"
+#include "io/row_of_planes.h"
 
 namespace wrinkle::io {
 namespace {
 
+constexpr float kByFar = 1.5f;  // times what the next object covers
+
 using Id = std::uint32_t;
-using Ids = std::vector<Id>;
 
-constexpr float kSeen = 0.02f;    // coverage below which an object does not count
-constexpr float kAligned = 0.8f;  // cosine between normals of neighbours on one surface
-constexpr float kJump = 4;        // times the step before or after it, whichever is smaller: a step to another surface
-constexpr float kFlat = 0.003f;   // share of 1 / depth by which neighbours on one surface may differ anyhow
-constexpr float kByFar = 1.5f;    // times what the next object covers
+bool shows(const std::vector<Seen>& seen, Id id) { return std::ranges::find(seen, id, &Seen::id) != seen.end(); }
 
-struct Seen {
-    Id id = 0;
-    float coverage = 0;
+/// Which objects belong to which numbered groups.
+class Groups {
+public:
+    void add(std::uint32_t group, Id id) {
+        if (keys_.empty() || keys_.back() != key(group, id)) keys_.push_back(key(group, id));
+    }
+    /// After all were added, before they are asked for.
+    void sort() {
+        std::ranges::sort(keys_);
+        const auto twice = std::ranges::unique(keys_);
+        keys_.erase(twice.begin(), twice.end());
+    }
+    bool has(std::uint32_t group, Id id) const { return std::ranges::binary_search(keys_, key(group, id)); }
+    bool has_one(std::uint32_t group) const {
+        const auto first = std::ranges::lower_bound(keys_, key(group, 0));
+        const auto is_in = [&](auto i) { return i != keys_.end() && *i >> 32 == group; };
+        return is_in(first) && !is_in(first + 1);
+    }
+
+private:
+    static std::uint64_t key(std::uint32_t group, Id id) { return std::uint64_t{group} << 32 | id; }
+    std::vector<std::uint64_t> keys_;
 };
-
-bool contains(const Ids& ids, Id id) { return std::ranges::find(ids, id) != ids.end(); }
-void add(Ids& ids, Id id) {
-    if (!contains(ids, id)) ids.push_back(id);
-}
-void add(Ids& ids, const Ids& more) {
-    for (const Id id : more) add(ids, id);
-}
 
 /// Consecutive pixels of a row without a jump.
 struct Part {
-    std::size_t begin = 0, end = 0;
-    Ids alone{};  ///< objects that are alone in some of its pixels
-};
-
-/// A row of the planes that tell.
-struct Row {
-    std::size_t width;
-    std::span<const float*const> ranks, normal, place;  ///< ids and coverages in turn
-    const float* object;                                ///< or null
-
-    /// What pixel x shows, what covers most of it first.
-    void seen(std::size_t x, std::vector<Seen>& out) const {
-        out.clear();
-        for (std::size_t k = 0; k < ranks.size(); k += 2)
-            if (ranks[k + 1][x] >= kSeen) out.push_back({std::bit_cast<Id>(ranks[k][x]), ranks[k + 1][x]});
-        std::ranges::stable_sort(out, std::ranges::greater{}, &Seen::coverage);
-    }
-
-    /// The length of the step from pixel x to the next: of 1 / depth, which is linear along planes, or in space.
-    float step(std::size_t x) const {
-        if (place.size() == 1) return std::abs(1 / place[0][x + 1] - 1 / place[0][x]);
-        float sum = 0;
-        for (const float* axis : place) sum += (axis[x + 1] - axis[x]) * (axis[x + 1] - axis[x]);
-        return std::sqrt(sum);
-    }
-
-    bool is_surface(std::size_t x) const {
-        return place.size() > 1 || (place[0][x] > 0 && place[0][x] < static_cast<float>(kBackgroundDepth));
-    }
-
-    /// Whether pixels x and x + 1 lie on one surface. What is not finite lies on none.
-    bool goes_on(std::size_t x) const {
-        if (!is_surface(x) || !is_surface(x + 1)) return false;
-        if (object != nullptr && object[x] != object[x + 1]) return false;
-        float cosine = 0, here = 0, next = 0;
-        for (const float* n : normal) {
-            cosine += n[x] * n[x + 1];
-            here += n[x] * n[x], next += n[x + 1] * n[x + 1];
-        }
-        if (!(cosine > kAligned * std::sqrt(here * next))) return false;
-        const float least = place.size() == 1 ? kFlat / place[0][x] : 0.0f;
-        const float length = step(x);
-        if (length <= least) return true;
-        const float before = x > 0 ? step(x - 1) : length, after = x + 2 < width ? step(x + 1) : length;
-        return length <= kJump * std::min(before, after);
-    }
+    std::uint32_t begin = 0, end = 0;
+    bool tells = false;  ///< some pixels show one object, or nothing
 };
 
 class RowOfFronts {
 public:
-    explicit RowOfFronts(const Row& row) : row_(row) {
-        std::vector<Seen> seen;
-        for (std::size_t x = 0; x < row_.width; ++x) {
+    /// `front` holds the objects of the pixels that show one.
+    RowOfFronts(const RowOfPlanes& row, const std::uint8_t* counts, float* front)
+        : row_(row), counts_(counts), front_(front) {
+        for (std::uint32_t x = 0; x < row_.width; ++x) {
             if (parts_.empty() || !row_.goes_on(x - 1)) parts_.push_back({x, x});
             Part& part = parts_.back();
             part.end = x + 1;
-            row_.seen(x, seen);
-            if (seen.size() == 1) add(part.alone, seen[0].id);
+            part.tells |= counts[x] < 2;
+            if (counts[x] != 1) continue;
+            const Id id = std::bit_cast<Id>(front[x]);
+            in_part_.add(part.begin, id);
+            if (row_.object == nullptr) continue;
+            in_number_.add(number(part), id);
+            in_any_.add(0, id);
         }
-        if (row_.object == nullptr) return;
-        for (const Part& part : parts_) add(of_number_[number(part)], part.alone);
+        for (Groups* groups : {&in_part_, &in_number_, &in_any_}) groups->sort();
     }
 
-    void find(float* front) const {
+    void find() const {
         std::vector<Seen> seen;
-        for (std::size_t k = 0; k < parts_.size(); ++k) {
-            const Ids others = beside(k);
-            for (std::size_t x = parts_[k].begin; x < parts_[k].end; ++x) {
+        const Part* left = nullptr;
+        const Part* const end = parts_.data() + parts_.size();
+        const Part* right = parts_.data();
+        for (const Part& part : parts_) {
+            right = std::max(right, &part + 1);
+            while (right != end && !right->tells) ++right;
+            std::optional<Around> around;
+            for (std::size_t x = part.begin; x < part.end; ++x) {
+                if (counts_[x] < 2) continue;
                 row_.seen(x, seen);
-                front[x] = seen.empty() ? 0.0f : chosen(parts_[k], others, seen);
+                const Seen* found = alone_in(part, seen);
+                if (found == nullptr) {
+                    if (!around) around = look_around(part, left, right == end ? nullptr : right);
+                    found = likely(part, *around, seen);
+                }
+                front_[x] = found == nullptr ? kNobodyKnows : std::bit_cast<float>(found->id);
             }
+            if (part.tells) left = &part;
         }
     }
 
 private:
+    /// What lies beside a part.
+    struct Around {
+        struct Side {
+            const Part* part = nullptr;  ///< the next that tells; null at the end of the row
+            bool behind = false;         ///< it goes on behind the part
+        };
+        Side left, right;
+        std::vector<Seen> throughout;  ///< what all pixels of the part show
+    };
+
+    Around look_around(const Part& part, const Part* left, const Part* right) const {
+        const auto last = [](const Part& p) { return p.end - 1; };
+        const auto second = [&](const Part& p) { return std::min(p.begin + 1, last(p)); };
+        const auto last_but_one = [&](const Part& p) { return std::max(p.end, p.begin + 2) - 2; };
+        Around around;
+        if (left != nullptr)
+            around.left = {left, row_.behind(last(*left), last_but_one(*left), part.begin, second(part))};
+        if (right != nullptr)
+            around.right = {right, row_.behind(right->begin, second(*right), last(part), last_but_one(part))};
+        row_.seen(part.begin, around.throughout);
+        std::vector<Seen> seen;
+        for (std::size_t x = part.begin + 1; x < part.end && !around.throughout.empty(); ++x) {
+            row_.seen(x, seen);
+            std::erase_if(around.throughout, [&](const Seen& s) { return !shows(seen, s.id); });
+        }
+        return around;
+    }
+
     /// The bits of a part's object number, as numbers may be anything.
     std::uint32_t number(const Part& part) const { return std::bit_cast<std::uint32_t>(row_.object[part.begin]); }
 
-    /// Objects that a part is not of, unless they are alone in it: those across its jumps, and those that have another
-    /// number.
-    Ids beside(std::size_t k) const {
-        Ids ids;
-        if (k > 0) add(ids, parts_[k - 1].alone);
-        if (k + 1 < parts_.size()) add(ids, parts_[k + 1].alone);
-        if (row_.object == nullptr) return ids;
-        const std::uint32_t own = number(parts_[k]);
-        for (const auto& [other, alone] : of_number_)
-            if (other != own) add(ids, alone);
-        std::erase_if(ids, [&](Id id) { return contains(of_number_.at(own), id); });
-        return ids;
-    }
-
-    float chosen(const Part& part, const Ids& others, std::vector<Seen> seen) const {
-        const auto first = [&](const Ids& ids) {
-            return std::ranges::find_if(seen, [&](const Seen& s) { return contains(ids, s.id); });
-        };
-        if (seen.size() == 1) return std::bit_cast<float>(seen[0].id);
-        if (const auto found = first(part.alone); found != seen.end()) return std::bit_cast<float>(found->id);
+    /// Whether a part that an object is not alone in is of others, as the object has another number or goes on behind
+    /// it. Where it goes on at one side only, it may as well end in the part, unless some pixels there do not show it.
+    bool is_elsewhere(const Part& part, const Around& around, Id id) const {
         if (row_.object != nullptr) {
-            const Ids& same = of_number_.at(number(part));
-            if (const auto found = first(same); same.size() == 1 && found != seen.end())
-                return std::bit_cast<float>(found->id);
+            if (in_number_.has(number(part), id)) return false;
+            if (in_any_.has(0, id)) return true;
         }
-        std::vector<Seen> left = seen;
-        std::erase_if(left, [&](const Seen& s) { return contains(others, s.id); });
-        if (left.empty()) left = std::move(seen);
-        if (left.size() == 1 || left[0].coverage >= kByFar * left[1].coverage) return std::bit_cast<float>(left[0].id);
-        return kNobodyKnows;
+        const auto goes_on = [&](const Around::Side& side) {
+            return side.behind && in_part_.has(side.part->begin, id);
+        };
+        const bool left = goes_on(around.left), right = goes_on(around.right);
+        if (left && right) return true;
+        if (!left && !right) return false;
+        return (left ? around.right : around.left).part == nullptr || !shows(around.throughout, id);
     }
 
-    const Row& row_;
+    /// What is alone in a part, or the only one that is in its object number; null if there is none.
+    const Seen* alone_in(const Part& part, const std::vector<Seen>& seen) const {
+        for (const Seen& s : seen)
+            if (in_part_.has(part.begin, s.id)) return &s;
+        if (row_.object != nullptr && in_number_.has_one(number(part)))
+            for (const Seen& s : seen)
+                if (in_number_.has(number(part), s.id)) return &s;
+        return nullptr;
+    }
+
+    /// What covers most by far of what is not elsewhere; null if nothing does.
+    const Seen* likely(const Part& part, const Around& around, const std::vector<Seen>& seen) const {
+        const Seen *most = nullptr, *next = nullptr;
+        for (const Seen& s : seen)
+            if (next == nullptr && !is_elsewhere(part, around, s.id)) (most == nullptr ? most : next) = &s;
+        if (most == nullptr) most = &seen[0], next = &seen[1];
+        return next == nullptr || most->coverage >= kByFar * next->coverage ? most : nullptr;
+    }
+
+    const RowOfPlanes& row_;
+    const std::uint8_t* counts_;
+    float* front_;
     std::vector<Part> parts_;
-    std::map<std::uint32_t, Ids> of_number_;  ///< objects that are alone in parts of an object number
+    Groups in_part_, in_number_, in_any_;  ///< objects that are alone in pixels of a part (by its begin) or a number
 };
 
 }  // namespace
@@ -202,11 +215,12 @@ void FrontObjects::read(std::span<const std::string> planes, std::span<float* co
 
 void FrontObjects::find(std::span<const float* const> planes, std::size_t width, std::span<float> front) const {
     std::vector<const float*> here(planes.begin(), planes.end());
+    std::vector<std::uint8_t> counts(width);
     for (std::size_t at = 0; at < front.size(); at += width) {
         const std::span<const float* const> all(here);
-        const Row row{width, all.first(2 * ranks_), all.subspan(2 * ranks_, 3), all.subspan(2 * ranks_ + 3, places_),
-                      object_ ? all.back() : nullptr};
-        RowOfFronts(row).find(front.data() + at);
+        const RowOfPlanes row{width, all.first(2 * ranks_), all.subspan(2 * ranks_, 3),
+                              all.subspan(2 * ranks_ + 3, places_), object_ ? all.back() : nullptr};
+        if (row.count(counts.data(), front.data() + at)) RowOfFronts(row, counts.data(), front.data() + at).find();
         for (const float*& plane : here) plane += width;
     }
 }

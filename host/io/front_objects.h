@@ -20,8 +20,8 @@ constexpr float kNobodyKnows = -0.0f;
 /// lists what is seen through a leaf that is half transparent, and what lies beside an edge.
 ///
 /// Each row is parted where depth or position, normal or object number jump. An object that is alone in some pixel of a
-/// part is the surface of all its pixels that show it. Where none is alone, it is not what is alone on the other side
-/// of the jumps, as that would have gone on without one; of what remains it is the object that covers most by far.
+/// part is the surface of all its pixels that show it. Where none is alone, it is not what is alone beyond the jumps
+/// and goes on behind the part; of what remains it is the object that covers most by far.
 class FrontObjects {
 public:
     explicit FrontObjects(const RoleMap& roles);

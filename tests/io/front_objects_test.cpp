@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -56,7 +57,7 @@ std::vector<std::uint32_t> fronts(const std::vector<Shown>& row, bool position =
                                                         {"depth", s.depth},
                                                         {"position.x", 0.01f * static_cast<float>(x) * s.depth},
                                                         {"position.y", 3},
-                                                        {"position.z", s.depth},
+                                                        {"position.z", -s.depth},
                                                         {"object", s.number}};
         for (const auto& [name, value] : values) planes[name].push_back(value);
     }
@@ -117,10 +118,65 @@ TEST(FrontObjects, EdgesOfOpaqueThingsBelongToTheSurfaceThatGoesOn) {
     EXPECT_EQ(fronts(row), wanted);
 }
 
-TEST(FrontObjects, ANormalThatTurnsIsAnEdgeTooAndSmoothSurfacesHaveNone) {
-    std::vector<Shown> row = amid_ground(std::vector(5, leaf_over_ground(0.3f, 10)));
-    for (std::size_t x = 6; x < 11; ++x) row[x].tilt = 1;
-    EXPECT_EQ(fronts(row), ids_amid_ground(std::vector(5, kLeaf)));
+TEST(FrontObjects, AtACreaseOfOneObjectWhatIsSeenBesideItTakesNothing) {
+    for (const bool position : {false, true}) {
+        for (const float leaf : {0.1f, 0.3f}) {
+            std::vector<Shown> row = amid_ground(std::vector(3, leaf_over_ground(leaf, 10)));
+            for (std::size_t x = 6; x < 9; ++x) row[x].tilt = 1;
+            EXPECT_EQ(fronts(row, position), std::vector(15, kGround)) << leaf;
+        }
+        for (const float sign : {-1.0f, 1.0f}) {  // a ridge or a trench with a flat middle, and sides of 45 degrees
+            std::vector<Shown> row;
+            for (int x = 0; x < 20; ++x) {
+                const float from_middle = static_cast<float>(x) - 9.5f;
+                row.push_back({.depth = 10 + sign * 0.1f * std::max(std::abs(from_middle) - 3, 0.0f)});
+                if (std::abs(from_middle) > 3)
+                    row.back().tilt = std::copysign(0.785f, sign * from_middle);
+                else
+                    row.back() = leaf_over_ground(0.3f, 10);
+            }
+            EXPECT_EQ(fronts(row, position), std::vector(20, kGround)) << sign;
+        }
+    }
+}
+
+TEST(FrontObjects, BetweenDenseLeavesATreeGoesOnFartherAway) {
+    for (const bool position : {false, true}) {
+        std::vector<Shown> row(6, {.first = kLeaf, .depth = 8});
+        row.insert(row.end(), 3, {kLeaf, 0.6f, kGround, 0.4f, 9});
+        row.insert(row.end(), 6, {.first = kLeaf, .depth = 8});
+        EXPECT_EQ(fronts(row, position), std::vector(15, kLeaf));
+        for (std::size_t x = 6; x < 9; ++x) row[x].covers = row[x].covers_too = 0.5f;
+        EXPECT_EQ(fronts(row, position)[7], 1u) << "nobody knows";
+    }
+}
+
+TEST(FrontObjects, ATreeAtItsLimbIsItsOwnHoweverItsLeavesJump) {
+    std::vector<Shown> row(6, {.first = kLeaf, .depth = 8});
+    row.insert(row.end(), 3, {kLeaf, 0.7f, kGround, 0.3f, 7});
+    row.insert(row.end(), 6, {.first = kWall, .depth = 20});
+    for (const bool position : {false, true}) EXPECT_EQ(fronts(row, position)[7], kLeaf);
+}
+
+TEST(FrontObjects, ALeafOverTheBorderOfTwoObjectsIsInFrontOfBoth) {
+    std::vector<Shown> row(6, ground);
+    row.insert(row.end(), 3, leaf_over_ground(0.2f));
+    row.insert(row.end(), 3, {kWall, 0.8f, kLeaf, 0.2f, 8});
+    row.insert(row.end(), 6, {.first = kWall});
+    std::vector<std::uint32_t> wanted(6, kGround);
+    wanted.insert(wanted.end(), 6, kLeaf);
+    wanted.insert(wanted.end(), 6, kWall);
+    for (const bool position : {false, true}) EXPECT_EQ(fronts(row, position), wanted);
+}
+
+TEST(FrontObjects, TwoLeavesOneBehindTheOtherAreBothInFrontOfTheGround) {
+    std::vector<Shown> leaves(3, leaf_over_ground(0.3f));
+    leaves.insert(leaves.end(), 3, leaf_over_ground(0.3f, 6));
+    for (const bool position : {false, true})
+        EXPECT_EQ(fronts(amid_ground(leaves), position), ids_amid_ground(std::vector(6, kLeaf)));
+}
+
+TEST(FrontObjects, SmoothSurfacesHaveNoEdge) {
     std::vector<Shown> ball;  // its depth falls ever more steeply towards its limb
     for (int x = 0; x < 40; ++x) ball.push_back({.depth = 10 - std::sqrt(1 - 0.0006f * static_cast<float>(x * x))});
     for (std::size_t x = 20; x < 40; ++x) ball[x] = {kGround, 0.6f, kLeaf, 0.4f, ball[x].depth};
