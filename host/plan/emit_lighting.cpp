@@ -73,7 +73,10 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
         return {
             {"lit", fmt::format("wr_light_surface({{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights{})",
                                 table ? ", light_table, light_tile, valid" : "")}};
-    std::vector<LitTerm> terms{{"lit_sky", "wr_sky(lighting, {n}, base)"}};
+    // Surfaces of an edge have albedos of their own, and what is added up is the light that they send on.
+    const char* const sky =
+        sums_light(emitter) ? "wr_multiply3(albedo, wr_sky(lighting, {n}, base))" : "wr_sky(lighting, {n}, base)";
+    std::vector<LitTerm> terms{{"lit_sky", sky}};
     const bool apart = specular_apart(emitter);
     const std::size_t last = pictures_of(emitter.scene.lighting).size() + (apart ? 1 : 0);
     for (std::size_t k = 0; k <= last; ++k)  // no picture shows lights of a table
@@ -163,10 +166,10 @@ std::string relight_text(Emitter& emitter, Section& section) {
         text += load_text(section, "emission", {"emission.r", "emission.g", "emission.b"}) +
                 "        emission = wr_max(emission, wr_zero3());\n"
                 "        rest = wr_sub(rest, emission);\n";
-    text +=
-        "        rest = wr_max(rest, wr_zero3());\n"
-        "        wr_vec3 sky = wr_v3(albedo.x * old_lit_sky.x, albedo.y * old_lit_sky.y, albedo.z * old_lit_sky.z);\n";
-    const bool apart = specular_apart(emitter), read = emitter.scene.lighting.shadows == Shadows::read;
+    const bool apart = specular_apart(emitter), summed = sums_light(emitter);
+    const bool read = emitter.scene.lighting.shadows == Shadows::read;
+    text += fmt::format("        rest = wr_max(rest, wr_zero3());\n        wr_vec3 sky = {};\n",
+                        summed ? "old_lit_sky" : "wr_multiply3(albedo, old_lit_sky)");
     if (apart) text += mirrored_text(emitter, section, pictures);
     if (read)
         text +=
@@ -176,19 +179,21 @@ std::string relight_text(Emitter& emitter, Section& section) {
             "        change = wr_add(change,\n"
             "            wr_relight_change(wr_sub(rest, lamps), lit_sky, old_lit_sky, lighting->max_ratio));\n";
     else
-        text +=
-            "        lit = wr_add(lit, wr_v3(albedo.x * lit_sky.x, albedo.y * lit_sky.y, albedo.z * lit_sky.z));\n"
+        text += fmt::format(
+            "        lit = wr_add(lit, {});\n"
             "        change = wr_add(change, wr_relight_change(rest, lit, wr_add(old_lit, sky), "
-            "lighting->max_ratio));\n";
+            "lighting->max_ratio));\n",
+            summed ? "lit_sky" : "wr_multiply3(albedo, lit_sky)");
     // What mirrors the sky and all around stays as it is: nothing tells what is there to mirror.
+    if (summed && apart && !read) section.reads.insert("around");
     if (apart)
         text += fmt::format(
             fmt::runtime(read ? "        change = wr_add(change, wr_relight_change(wr_min(wr_scale(old_{0}, reached), "
                                 "mirrored), {0}, old_{0},\n            lighting->max_ratio));\n"
-                              : "        wr_vec3 around = wr_scale(old_lit_sky, (wr_real)(lighting->f0));\n"
+                              : "        {1} = wr_scale({2}, (wr_real)(lighting->f0));\n"
                                 "        change = wr_add(change, wr_relight_change(mirrored, wr_add({0}, around), "
                                 "wr_add(old_{0}, around),\n            lighting->max_ratio));\n"),
-            lit_name(pictures.size() + 1));
+            lit_name(pictures.size() + 1), summed ? "around" : "wr_vec3 around", summed ? "around" : "old_lit_sky");
     // Metal mirrors what is around it, which nobody knows: it stays as it is.
     if (emitter.has("metallic")) {
         section.inputs.insert("metallic");
@@ -222,20 +227,19 @@ std::string roughness_now(Section& section, const std::vector<LitTerm>& terms, c
 
 }  // namespace
 
-bool sums_light(const Emitter& emitter) {
-    return emitter.scene.lighting.relight == Relight::ratio && emitter.available.beauty_scale > 1;
-}
-
 Section emit_light_terms(Emitter& emitter, const LightEnd& end) {
-    const double lights = lights_of_pixel(emitter);
     const std::vector<LitTerm> terms = lit_terms(emitter);
     Section section;
     section.title = "light with and without bumps, for sums over pixels of the picture";
     section.reads = {"valid", "p", "n", "base"};
     section.summed = true;
-    section.operations = kLight * lights;
+    section.operations = kLight * lights_of_pixel(emitter);
     section.body = lit_surface_text(emitter, section);
-    const std::string now = roughness_now(section, terms, end, lights);
+    if (specular_apart(emitter) && emitter.scene.lighting.shadows != Shadows::read) {
+        section.writes.insert("around");
+        section.body += "        around = wr_select(valid, wr_sky(lighting, base, base), wr_zero3());\n";
+    }
+    const std::string now = roughness_now(section, terms, end, lights_of_pixel(emitter));
     for (const LitTerm& term : terms) {
         const std::string old = old_name(term.value);
         if (!end.at_taps) section.body += fmt::format("        {} = {};\n", term.value, term.of("p", "n", now));

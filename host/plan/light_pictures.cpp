@@ -81,4 +81,8 @@ std::array<std::string, 3> picture_planes(const Emitter& emitter, const std::str
     return planes;
 }
 
+bool sums_light(const Emitter& emitter) {
+    return emitter.scene.lighting.relight == Relight::ratio && emitter.available.beauty_scale > 1;
+}
+
 }  // namespace wrinkle

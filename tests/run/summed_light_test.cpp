@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint32_t kWidth = 24, kHeight = 12;
 
-/// A plane whose normals turn from pixel to pixel, as at an edge, with a hole; its picture has a pixel for scale x
-/// scale.
+/// A plane whose normals turn from pixel to pixel, as at an edge, with a hole and an edge of its albedo within pixels
+/// of its picture, which has one for scale x scale.
 HostFrame uneven(std::uint32_t scale) {
     HostFrame frame(plane_frame(test_camera(), {kWidth, kHeight}, normalize(V{0.1, -0.2, 1})), test_camera());
     frame.frame.beauty_scale = scale;
@@ -20,6 +20,8 @@ HostFrame uneven(std::uint32_t scale) {
     }
     frame.pixels["normal.z"][5] = frame.pixels["normal.x"][5] = frame.pixels["normal.y"][5] = 0;
     for (const char color : {'r', 'g', 'b'}) {
+        std::vector<float>& albedo = frame.add(std::string("albedo.") + color);
+        for (std::size_t i = 0; i < albedo.size(); ++i) albedo[i] = i % kWidth < 11 ? 0.9f : 0.05f;
         std::vector<float>& beauty = frame.add(std::string("beauty.") + color);
         for (std::size_t i = 0; i < beauty.size(); ++i) {
             const std::size_t x = i % kWidth / scale, y = i / kWidth / scale;
@@ -35,6 +37,7 @@ Scene lit_scene() {
     scene.layers[0].bump = ConstantLayer{{0.5, -0.3, 0}};
     scene.lighting.lights = {Light{.intensity = 3, .direction = {-0.5, 0.2, -0.8}},
                              Light{.kind = LightKind::point, .intensity = 20, .position = {1, -3, 4}}};
+    scene.lighting.ambient = {0.3, 0.4, 0.5};
     scene.lighting.max_ratio = 3;
     return scene;
 }
@@ -100,7 +103,6 @@ TEST(SummedLight, TheAreaOfPixelsIsWalkedAsEver) {
     scene.layers[0].scale = 0.3;
     scene.lighting.relight = Relight::ratio;
     scene.lighting.shadows = Shadows::read;
-    scene.lighting.ambient = {0.1, 0.1, 0.1};
     const Pixels got = evaluate_area(frame, scene);
     for (std::size_t i = 0; i < frame.count(); i += 2) {
         if (i / kWidth % 2 == 1 || i <= 5) continue;
