@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "io/frame_path.h"
 #include "layers/kinds.h"
 #include "plan/section.h"
@@ -42,12 +45,42 @@ std::map<std::string, std::uint32_t> cryptomatte_hashes(const Scene& scene, cons
     return hashes;
 }
 
+/// The channels that a layer takes slopes from.
+std::vector<std::string> slope_channels(const Layer& layer, std::span<const std::string> channels) {
+    if (const auto* const heights = std::get_if<HeightChannelLayer>(&layer.bump)) return {heights->channel};
+    const auto* const gradient = std::get_if<GradientLayer>(&layer.bump);
+    if (gradient == nullptr || kind_of(layer_kinds(), layer).vectors(layer)) return {};  // they are another file's
+    if (!gradient->channels.empty()) return gradient->channels;
+    const std::string prefix = (gradient->layer.empty() ? "volume_gradient" : gradient->layer) + ".";
+    std::vector<std::string> of_layer;
+    for (const std::string& channel : channels)
+        if (channel.starts_with(prefix)) of_layer.push_back(channel);
+    return of_layer;
+}
+
+/// Throws Error where a layer takes slopes from the pixels of a smaller picture: those are repeated, and within each
+/// nothing would change.
+void refuse_slopes_of_smaller_picture(const Scene& scene, const GBufferReader& reader) {
+    if (reader.beauty_scale() == 1) return;
+    const auto has = [](const std::vector<std::string>& channels, const std::string& channel) {
+        return std::ranges::find(channels, channel) != channels.end();
+    };
+    for (const Layer& layer : scene.layers)
+        for (const std::string& channel : slope_channels(layer, reader.beauty_channels()))
+            if (has(reader.beauty_channels(), channel) && !has(reader.channels(), channel))
+                throw Error(fmt::format(
+                    "{}: the channel \"{}\" is that of {}, which has fewer pixels than the frame {}; render "
+                    "it at the frame's size",
+                    layer_label(layer), channel, scene.gbuffer.beauty_file.string(), reader.path().string()));
+}
+
 }  // namespace
 
 Frame frame_of(const Scene& scene, const GBufferReader& reader, const FrameCamera& camera) {
     if (!reader.normals_are_in_world_space())
         throw Error(fmt::format("{}: its normals ({}) are in camera space, and nobody has turned them",
                                 reader.path().string(), reader.roles().channel_of.at("normal.x")));
+    refuse_slopes_of_smaller_picture(scene, reader);
     Frame frame{.size = reader.size(), .camera = camera.camera, .planes = {}, .ray_depth = false, .cryptomatte = {}};
     for (const std::string& plane : reader.planes()) frame.planes.insert(plane);
     for (const std::vector<std::string>& channels : {reader.channels(), reader.beauty_channels()})
