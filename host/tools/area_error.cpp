@@ -142,9 +142,10 @@ AreaErrors measure_area(const Scene& scene, const AreaOptions& options) {
         for (const int taps : options.taps)
             passes.push_back(evaluate(device, with_taps(scene, taps), frame, {}, &store));
 
-        // Of the camera only the kind counts; each pixel sets its own.
+        // Of the camera only the kind counts; each pixel sets its own. Points of one pixel are no pixels of a picture.
         Frame area = frame;
         area.size = {kPointsAlong, kPointsAlong};
+        area.beauty_scale = 1;
         Pass points_pass = evaluate(device, with_taps(scene, 1), area, {.fp64 = device.info.fp64}, &store);
 
         const std::vector<std::string> names = read_by(passes, points_pass);
