@@ -42,6 +42,13 @@ std::uint32_t beauty_scale(const ImageParts& beauty, const std::filesystem::path
                         "multiple, up to {} along each side",
                         beauty_file.string(), beauty.size.width, beauty.size.height, frame_file.string(),
                         frame.size.width, frame.size.height, most));
+    const Size &few = beauty.window.display, &many = frame.window.display;
+    if (scale > 1 && (many.width != scale * few.width || many.height != scale * few.height))
+        throw Error(fmt::format(
+            "{}: the display window of the beauty has {}x{} pixels, and that of {} has {}x{}; with overscan "
+            "it must have {} times as many along each side, as the data window has, or PNGs would lose "
+            "columns or rows",
+            beauty_file.string(), few.width, few.height, frame_file.string(), many.width, many.height, scale));
     return scale;
 }
 

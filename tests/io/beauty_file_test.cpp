@@ -70,6 +70,11 @@ TEST(BeautyFile, MustHaveAWholeShareOfTheFramesPixels) {
     EXPECT_EQ(GBufferReader(folder / "data.exr", source).beauty_scale(), 2u);
     write(folder / "beauty.exr", 6, 4, {"R", "G", "B"}, -2, -1, 4, 2);
     EXPECT_NE(refusal(folder / "data.exr", source).find("whole multiple"), std::string::npos);
+    write(folder / "data.exr", 12, 8, {"N.X", "N.Y", "N.Z"}, -2, -2, 9, 4);
+    write(folder / "beauty.exr", 6, 4, {"R", "G", "B"}, -1, -1, 4, 2);
+    const std::string text = refusal(folder / "data.exr", source);
+    for (const char* part : {"beauty.exr: the display window of the beauty has 4x2", "data.exr has 9x4", "2 times"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
 }  // namespace
