@@ -231,7 +231,9 @@ void GBufferReader::require(std::span<const std::string> planes) const {
     for (const auto& plane : planes) {
         if (plane == io::kFrontPlane && has_plane(plane)) continue;  // it is made from others
         const auto* place = impl_->place(plane);
-        if (place == nullptr) io::fail_missing_plane(plane, impl_->channels, impl_->path);
+        if (place == nullptr)
+            io::fail_missing_plane(plane, impl_->channels, impl_->path, impl_->beauty_channels,
+                                   impl_->beauty ? impl_->beauty->path() : impl_->path);
         io::require_whole_ids(plane, *place, impl_->path);
     }
 }

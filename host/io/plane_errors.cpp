@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "base/names.h"
 #include "io/channel_names.h"
 #include "wrinkle/error.h"
@@ -9,11 +12,20 @@
 namespace wrinkle::io {
 
 void fail_missing_plane(std::string_view plane, std::span<const std::string> channels,
-                        const std::filesystem::path& file) {
+                        const std::filesystem::path& file, std::span<const std::string> beauty_channels,
+                        const std::filesystem::path& beauty_file) {
     constexpr std::string_view of_file = "channel:";
     const auto found = describe_channels(channels);
     if (plane.starts_with(of_file)) {
         plane.remove_prefix(of_file.size());
+        if (!beauty_channels.empty()) {
+            std::vector<std::string> both(channels.begin(), channels.end());
+            both.insert(both.end(), beauty_channels.begin(), beauty_channels.end());
+            throw Error(
+                fmt::format("{}: no channel \"{}\", here or in {}; nearest: \"{}\"; channels found: {}; in {}: {}",
+                            file.string(), plane, beauty_file.string(), nearest_name(plane, both), found,
+                            beauty_file.string(), describe_channels(beauty_channels)));
+        }
         throw Error(fmt::format("{}: no channel \"{}\"; nearest: \"{}\"; channels found: {}", file.string(), plane,
                                 nearest_name(plane, channels), found));
     }

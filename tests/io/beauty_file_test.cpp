@@ -77,5 +77,21 @@ TEST(BeautyFile, MustHaveAWholeShareOfTheFramesPixels) {
         EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
+TEST(BeautyFile, ChannelsThatNeitherFileHasAreSaidOfBoth) {
+    const TempFolder folder;
+    write(folder / "data.exr", 12, 8, {"N.X", "N.Y", "N.Z"});
+    write(folder / "beauty.exr", 6, 4, {"R", "G", "B", "sun.R", "sun.G", "sun.B"});
+    GBufferSource source;
+    source.beauty_file = folder / "beauty.exr";
+    try {
+        GBufferReader(folder / "data.exr", source).require(std::vector<std::string>{"channel:sun.r"});
+        ADD_FAILURE() << "nothing was refused";
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        for (const char* part : {"data.exr", "beauty.exr", "no channel \"sun.r\"", "nearest: \"sun.", "N.XYZ"})
+            EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+}
+
 }  // namespace
 }  // namespace wrinkle::test
