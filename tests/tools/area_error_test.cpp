@@ -44,6 +44,19 @@ TEST(AreaError, IsNoneWhereNothingVaries) {
     EXPECT_EQ(again.unbumped.median, errors.unbumped.median) << "the same seed draws the same pixels";
 }
 
+TEST(AreaError, TakesFramesWithMorePixelsThanTheirPicture) {
+    const TempFolder folder;
+    Scene scene = on_ground(folder, layer_of(ConstantLayer{.gradient = {0.3, -0.2, 0}}, 1));
+    write_exr(folder / "ground.exr", 24, 18, {"N.X", "N.Y", "N.Z", "Z"}, [](int c, int, int) {
+        return c == 2 ? 1.0f : c == 3 ? 10.0f : 0.0f;
+    });
+    write_exr(folder / "beauty.exr", 8, 6, {"R", "G", "B"}, [](int, int, int) { return 0.5f; });
+    scene.gbuffer.beauty_file = folder / "beauty.exr";
+    AreaOptions few = options();
+    few.sample = 20;
+    EXPECT_EQ(measure_area(scene, few).unbumped.samples, 20u);
+}
+
 TEST(AreaError, NeedsASurface) {
     const TempFolder folder;
     Scene scene = on_ground(folder, layer_of(ConstantLayer{.gradient = {0.3, -0.2, 0}}, 1));
