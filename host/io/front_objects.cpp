@@ -27,8 +27,7 @@ public:
     /// After all were added, before they are asked for.
     void sort() {
         std::ranges::sort(keys_);
-        const auto twice = std::ranges::unique(keys_);
-        keys_.erase(twice.begin(), twice.end());
+        keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
     }
     bool has(std::uint32_t group, Id id) const { return std::ranges::binary_search(keys_, key(group, id)); }
     bool has_one(std::uint32_t group) const {
