@@ -49,7 +49,7 @@ void read_lights(Table& root, Lighting& out) {
     }
     if (!relight_is_sound || root.is_bad("light") || root.is_bad("lighting")) return;
     // A frame's file may say that it has none.
-    const bool any = !out.lights.empty() || !out.table_file.empty() || (out.table && !out.table->empty());
+    const bool any = !out.lights.empty() || is_json(out.table_file) || (out.table && !out.table->empty());
     if (out.relight == Relight::off && !lights.empty() && !root.visits())
         root.document().problems.add(lights.front().line(),
                                      "[[light]] has no effect while relighting is off; set relight = \"lit\" or "

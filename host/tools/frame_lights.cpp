@@ -12,6 +12,7 @@
 #include "base/imath.h"
 #include "base/vec.h"
 #include "run/open_frame.h"
+#include "scene/light_json.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -205,7 +206,8 @@ FrameLights lights_of_frame(const Scene& scene, int frame) {
 
 bool wants_lights(const Scene& scene) {
     const Lighting& lighting = scene.lighting;
-    const bool named = !lighting.lights.empty() || !lighting.table_file.empty() ||  // a file without any says that, too
+    const bool named = !lighting.lights.empty() ||
+                       scene::is_json(lighting.table_file) ||  // one may say that there are none
                        (lighting.table && !lighting.table->empty());
     return lighting.relight == Relight::ratio && !named && lighting.ambient == Vec3{};
 }
