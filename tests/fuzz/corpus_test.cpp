@@ -18,6 +18,7 @@
 #include "tests/fuzz/decal_toml_fuzz.cpp"
 #include "tests/fuzz/gbuffer_fuzz.cpp"
 #include "tests/fuzz/grid_bytes_fuzz.cpp"
+#include "tests/fuzz/light_json_fuzz.cpp"
 #include "tests/fuzz/npy_fuzz.cpp"
 #include "tests/fuzz/nvdb_fuzz.cpp"
 #include "tests/fuzz/scene_fuzz.cpp"
@@ -39,6 +40,7 @@ const std::map<std::string, Harness> kHarnesses{
     {"decal_toml_fuzz", decal_toml_fuzz},
     {"gbuffer_fuzz", gbuffer_fuzz},
     {"grid_bytes_fuzz", grid_bytes_fuzz},
+    {"light_json_fuzz", light_json_fuzz},
     {"npy_fuzz", npy_fuzz},
     {"nvdb_fuzz", nvdb_fuzz},
     {"scene_fuzz", scene_fuzz},

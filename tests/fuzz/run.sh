@@ -29,7 +29,7 @@ seeds_of() {
 # Texts show all that they can in little, and a node of a NanoVDB tree takes 270 kB as it lies in a file.
 longest_of() {
     case $1 in
-        scene_fuzz | decal_csv_fuzz | decal_toml_fuzz | camera_fuzz | costs_fuzz) echo 4096 ;;
+        scene_fuzz | decal_csv_fuzz | decal_toml_fuzz | camera_fuzz | light_json_fuzz | costs_fuzz) echo 4096 ;;
         nvdb_fuzz) echo 400000 ;;
         *) echo 65536 ;;
     esac
