@@ -28,6 +28,8 @@ typedef struct {
     WR_SCALAR forward[3];  // parallel: the way along the rays per unit of view depth
     // What the float of the same name lacks, for the exact variants; programs in double do not read it
     WR_SCALAR d0_low[3], dx_low[3], dy_low[3], c0_low[3], c1_low[3], c2_low[3], c3_low[3], w_low[4];
+    // Of a depth buffer's number d = clip z / clip w: view depth is scale / (d + offset), parallel (d + offset) scale
+    WR_SCALAR depth_scale, depth_offset, depth_offset_low;
 } wr_camera;
 
 // A projector: a decal, or a row of a table of them. q = to_box (p - center) is in [-1,1]^3 inside its box.

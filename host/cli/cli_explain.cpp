@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/explain_budget.h"
+#include "cli/format_option.h"
 #include "cli/frame_list.h"
 #include "cli/json_text.h"
 #include "cli/options.h"
@@ -34,7 +35,7 @@ struct ExplainArguments {
     int lanes = 0;
     std::optional<int> frame;
     std::optional<double> max_error;
-    std::vector<std::string> set;
+    std::vector<std::string> set, formats;
     bool full = false, no_source = false, json = false;
 };
 
@@ -170,7 +171,9 @@ void explain(const ExplainArguments& arguments) {
     };
     if (!arguments.device.empty() || arguments.lanes != 0) open();
     if (scene.budget.max_error) on.budget.emplace(scene, camera_kind(frame.camera, frame.size), costs_of(open().info));
-    const Plan plan = plan_for(scene, frame, options_of(on.budget));
+    Frame stored = frame;
+    stored.formats = formats_of(arguments.formats);
+    const Plan plan = plan_for(scene, stored, options_of(on.budget));
     if (plan.tiles) on.bins = bin_report(open(), scene, frame, reader);
     double operations = 0;
     for (const SectionSummary& section : plan.sections) operations += section.operations;
@@ -214,6 +217,7 @@ void add_explain(CLI::App& app) {
     command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
     command->add_option("--frame", arguments->frame, "frame number, for scenes of a sequence");
     add_set_option(*command, arguments->set);
+    add_format_option(*command, arguments->formats);
     add_max_error_option(*command, arguments->max_error, "explains what a run under that budget starts with");
     add_device_option(*command, arguments->device);
     add_lanes_option(*command, arguments->lanes);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plan/geometry_text.h"
+#include "plan/stored_planes.h"
 
 namespace wrinkle {
 
@@ -18,20 +19,22 @@ std::string indented(const std::string& lines) {
     return text;
 }
 
-/// The planes that the helper for neighbours loads: as its parameters, or as the arguments of a call.
-std::string neighbour_planes(const GeometryText& geometry, bool object, bool declare) {
+/// The planes that the helper for neighbours loads: as its parameters, if there are `formats`, or as the arguments of a
+/// call.
+std::string neighbour_planes(const GeometryText& geometry, bool object, const PlaneFormats* formats) {
     std::string text;
     std::vector<std::string> planes = geometry.planes;
     planes.insert(planes.end(), {"normal.x", "normal.y", "normal.z"});
     if (object) planes.push_back("object");
     for (const std::string& plane : planes)
-        text += fmt::format(", {}{}", declare ? "global const float *" : "", identifier(plane));
+        text += fmt::format(", {}{}", formats != nullptr ? input_type(plane, *formats) : "", identifier(plane));
     return text;
 }
 
 /// Text of the function that loads a neighbour. It does not test for NaN and Inf: they fail the comparisons of
 /// wr_belongs.
-std::string neighbour_helper(const GeometryText& geometry, bool object) {
+std::string neighbour_helper(const GeometryText& geometry, bool object, const PlaneFormats& formats,
+                             const std::array<std::string, 2>& values) {
     const std::string load = "wr_load_near({}, at, pixels)";
     const bool depth = geometry.planes.size() == 1;
     std::string text =
@@ -39,8 +42,8 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
         "wr_fn wr_neighbour wr_neighbour_at(constant const wr_camera *camera, long at, long pixels, wr_real x, wr_real "
         "y,\n"
         "                                   wr_vec3 along, " +
-        geometry.here + neighbour_planes(geometry, object, true) +
-        ", global const float *u, global const float *v)\n{\n";
+        geometry.here + neighbour_planes(geometry, object, &formats) +
+        fmt::format(", {}u, {}v)\n{{\n", input_type(values[0], formats), input_type(values[1], formats));
     text += load_normal(load, "    ") + load_geometry(geometry, load, "    ") + "    " + geometry.step + "\n";
     text += fmt::format(
         "    wr_mask valid = (x > 0) & (y > 0) & (x < camera->width) & (y < camera->height){};\n"
@@ -57,13 +60,16 @@ std::string neighbour_helper(const GeometryText& geometry, bool object) {
 /// `valid` as its members; then comes what `use` makes of the texts of the neighbours before and after it, for each
 /// image axis. A neighbour's uv is loaded from the two planes `values`.
 template <class Use>
-std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section, const std::string& values,
-                            const std::string& uv, const std::string& valid, const Use& use) {
+std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Section& section,
+                            const std::array<std::string, 2>& values, const std::string& uv, const std::string& valid,
+                            const Use& use) {
     const bool object = emitter.has("object");
     if (object) section.inputs.insert("object");
-    if (!emitter.plan.neighbours) emitter.helpers += neighbour_helper(geometry, object);
+    const std::string helper = neighbour_helper(geometry, object, emitter.plan.formats, values);
+    if (emitter.helpers.find(helper) == std::string::npos) emitter.helpers += helper;  // another for other formats
     emitter.plan.neighbours = true;
-    const std::string planes = neighbour_planes(geometry, object, false) + ", " + values;
+    const std::string planes = neighbour_planes(geometry, object, nullptr) +
+                               fmt::format(", {}, {}", identifier(values[0]), identifier(values[1]));
     std::string text = fmt::format(
         "        long here = at.in, row = width;\n"
         "        wr_neighbour self = {{{}, wr_zero3(), unturned, {}, {}}};\n"
@@ -84,7 +90,7 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
 std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
     section.operations += 200;
     return "        {\n" +
-           neighbours_text(emitter, geometry, section, "in_normal_x, in_normal_x", "wr_v2((wr_real)(0), (wr_real)(0))",
+           neighbours_text(emitter, geometry, section, {"normal.x", "normal.x"}, "wr_v2((wr_real)(0), (wr_real)(0))",
                            "valid",
                            [](const char* axis, const std::string& before, const std::string& after) {
                                return fmt::format(
@@ -146,7 +152,7 @@ std::string emit_uv(Emitter& emitter, const GeometryText& geometry, const std::v
         text += wanted + fmt::format("        wr_mask usable = uv_valid{};\n", wanted.empty() ? "" : " & wanted") +
                 "        if (wr_any(usable)) {\n" +
                 indented(neighbours_text(
-                    emitter, geometry, section, "in_uv_u, in_uv_v", "wr_v2(wr_to_real(u), wr_to_real(v))", "uv_valid",
+                    emitter, geometry, section, {"uv.u", "uv.v"}, "wr_v2(wr_to_real(u), wr_to_real(v))", "uv_valid",
                     [](const char* axis, const std::string& before, const std::string& after) {
                         return fmt::format(
                             "        wr_texcoord_change to_{0} = wr_texcoord_difference(self, {1},\n"
@@ -204,8 +210,8 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
     section.operations += 300;
     const std::string height = identifier(plane);
     const std::string differences =
-        neighbours_text(emitter, geometry, section, height + ", " + height, "wr_v2(wr_to_real(height), (wr_real)(0))",
-                        "usable", [](const char* axis, const std::string& before, const std::string& after) {
+        neighbours_text(emitter, geometry, section, {plane, plane}, "wr_v2(wr_to_real(height), (wr_real)(0))", "usable",
+                        [](const char* axis, const std::string& before, const std::string& after) {
                             return fmt::format(
                                 "        dh.{1} = wr_height_difference(self, {2},\n"
                                 "                                     {3}, step_{0}, &usable);\n",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "plan/stored_planes.h"
+
 namespace wrinkle {
 
 namespace {
@@ -41,12 +43,10 @@ void begin_kernel(Plan& plan, const PlannedKernel& kernel, bool compiled_numbers
         text +=
             "    global const wr_light *restrict light_rows, global const uint *restrict light_lists,\n"
             "    global const uint *restrict light_entries, uint light_supers,\n";
-    for (const std::string& plane : kernel.inputs)
-        text += fmt::format("    global const float *restrict {},\n", identifier(plane));
+    text += input_arguments(kernel.inputs, plan.formats);
     for (const std::string& plane : kernel.scratch)
         text += fmt::format("    global WR_SCALAR *restrict scratch_{},\n", plane);
-    for (const std::string& plane : kernel.outputs)
-        text += fmt::format("    global WR_SCALAR *restrict out_{},\n", identifier(plane).substr(3));
+    text += output_arguments(kernel.outputs, plan.output_formats);
     text += "    uint in_first, uint in_pixels, uint first_row, uint width, uint items";
     if (plan.blocks) text += ", uint block_rows";
     text += ")\n{\n    if (get_global_id(0) >= items) return;  // the global size is padded\n";
@@ -54,6 +54,7 @@ void begin_kernel(Plan& plan, const PlannedKernel& kernel, bool compiled_numbers
         plan.blocks
             ? "    wr_pixel_block at = wr_pixel_block_of(get_global_id(0), in_first, first_row, width, block_rows);\n"
             : "    wr_pixels at = wr_pixels_of(get_global_id(0), in_first, first_row, width);\n";
+    text += input_declarations(kernel.inputs, plan.formats) + output_declarations(kernel.outputs, plan.output_formats);
 }
 
 }  // namespace
@@ -102,6 +103,10 @@ PlannedKernel emit_kernel(Plan& plan, const std::string& name, const std::vector
         }
     }
     text += store + "}\n\n";
+    plan.outputs.insert(plan.outputs.end(), kernel.outputs.begin(), kernel.outputs.end());
+    plan.inputs.insert(plan.inputs.end(), kernel.inputs.begin(), kernel.inputs.end());
+    kernel.inputs = memories_of(kernel.inputs, plan.formats);
+    kernel.outputs = memories_of(kernel.outputs, plan.output_formats);
     return kernel;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "plan/geometry_text.h"
+#include "plan/stored_planes.h"
 
 namespace wrinkle {
 
@@ -81,11 +82,20 @@ Section emit_output(Emitter& emitter, bool bumped) {
         section.reads.insert("n");
         section.inputs.insert({"normal.x", "normal.y", "normal.z"});
         // An invalid pixel keeps its normal, unless that is not finite.
+        const bool octahedral = is_octahedral(emitter.plan.output_formats);
         for (const char axis : {'x', 'y', 'z'}) {
             text += fmt::format("        wr_floats n{0} = wr_load_floats(in_normal_{0}, at.in);\n", axis);
-            store(fmt::format("normal.{}", axis),
-                  fmt::format("valid ? n.{0} : wr_to_real(wr_valid_or(n{0}, wr_finite(n{0}), 0))", axis));
+            const std::string plane = fmt::format("normal.{}", axis),
+                              kept = fmt::format("valid ? n.{0} : wr_to_real(wr_valid_or(n{0}, wr_finite(n{0}), 0))",
+                                                 axis);
+            if (!octahedral) {
+                store(plane, kept);
+                continue;
+            }
+            section.outputs.push_back(plane);
+            text += fmt::format("        n.{} = {};\n", axis, kept);
         }
+        if (octahedral) text += "        wr_stream_octahedral(n, out_normal_x, at.out);\n";
     }
     if (output.surface_gradient) {
         if (!bumped) text += "        g = wr_zero3();\n";

@@ -4,6 +4,7 @@
 
 #include "plan/geometry_text.h"
 #include "plan/layer_text.h"
+#include "plan/stored_planes.h"
 
 namespace wrinkle {
 
@@ -66,9 +67,7 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     // a pixel where they reach its centre.
     std::string grow = area ? fmt::format("{0}{{\n{1}{0}}}\n", kIndent, grow_area_text(emitter, geometry)) : "";
     if (!area || !moved.text.empty() || has_light_table(emitter)) grow += grow_text(emitter, moved);
-    std::string planes;
-    for (const std::string& plane : inputs)
-        planes += fmt::format("    global const float *restrict {},\n", identifier(plane));
+    const PlaneFormats& formats = emitter.plan.formats;
     source += fmt::format(
         R"(kernel void wr_bin_tiles(constant const wr_camera *camera, constant const WR_SCALAR *numbers,
     constant const WR_SCALAR *axes, global float *bounds,
@@ -77,7 +76,7 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
 {{
     uint tile = get_global_id(0);
     if (tile >= tiles) return;
-    uint2 corner = wr_tile_corner(tile, supers);
+{}    uint2 corner = wr_tile_corner(tile, supers);
     wr_growing box = wr_no_box();
     for (uint row = corner.y; row < min(corner.y + WR_TILE_HEIGHT, rows); ++row)
         for (uint column = corner.x; column < min(corner.x + WR_TILE_WIDTH, width); column += WR_LANES) {{
@@ -90,10 +89,11 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
 }}
 
 )",
-        planes, load_geometry(geometry, kLoad, kIndent) + (normals ? load_normal(kLoad, kIndent) : ""),
+        input_arguments(inputs, formats), input_declarations(inputs, formats),
+        load_geometry(geometry, kLoad, kIndent) + (normals ? load_normal(kLoad, kIndent) : ""),
         normals ? "wr_valid_normal(nx, ny, nz) & " : "", geometry.valid, sanitize(geometry, kIndent), geometry.position,
         grow);
-    return {"wr_bin_tiles", inputs, {}, {}, 0};
+    return {"wr_bin_tiles", memories_of(inputs, formats), {}, {}, 0};
 }
 
 PlannedKernel emit_bins(Emitter& emitter, std::string& source) {

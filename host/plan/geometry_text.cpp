@@ -19,7 +19,11 @@ GeometryText geometry_text(const Emitter& emitter) {
                 "geometry from depth needs a pinhole camera, or planar depth under a parallel projection; set "
                 "geometry = \"position\"");
         const bool parallel = available.camera == CameraKind::parallel;
+        const std::string number =
+            available.device_depth == DeviceDepth::minus_one_to_one ? "2 * wr_to_real({}) - 1" : "wr_to_real({})";
+        const std::string view = fmt::format("wr_{}view_depth(camera, {})", parallel ? "parallel_" : "", number);
         return {{"depth"},
+                available.device_depth == DeviceDepth::none ? "{}" : view,
                 "wr_valid_depth(z)",
                 parallel              ? "wr_vec3 p = wr_parallel_position(camera, x, y, wr_to_real(z));"
                 : available.ray_depth ? "wr_vec3 p = wr_scale(wr_normalize(wr_ray(camera, x, y)), wr_to_real(z));"
@@ -42,6 +46,7 @@ GeometryText geometry_text(const Emitter& emitter) {
                              : "geometry from positions"),
                  {"position.x", "position.y", "position.z"});
     return {{"position.x", "position.y", "position.z"},
+            "",
             "wr_valid_position(px, py, pz)",
             "wr_vec3 p = wr_eye_relative(camera, wr_v3(wr_to_real(px), wr_to_real(py), wr_to_real(pz)));",
             "wr_along_ray(p, d)",
@@ -54,7 +59,8 @@ GeometryText geometry_text(const Emitter& emitter) {
 std::string load_geometry(const GeometryText& geometry, const std::string& load, const std::string& indent) {
     std::string text;
     if (geometry.planes.size() == 1) {
-        text += fmt::format("{}wr_floats z = {};\n", indent, fmt::format(fmt::runtime(load), "in_depth"));
+        text += fmt::format("{}wr_floats z = {};\n", indent,
+                            fmt::format(fmt::runtime(geometry.depth), fmt::format(fmt::runtime(load), "in_depth")));
     } else {
         for (const char axis : {'x', 'y', 'z'})
             text += fmt::format("{}wr_floats p{} = {};\n", indent, axis,

@@ -7,6 +7,7 @@ namespace wrinkle {
 /// How a pixel's position is computed, as kernel text.
 struct GeometryText {
     std::vector<std::string> planes;
+    std::string depth;     ///< a depth, with {} for the number that its plane holds
     std::string valid;     ///< mask of the planes, as text
     std::string position;  ///< declares p, from pixel (x, y) and the values z, or px, py, pz, of the planes
     std::string along;     ///< r in p = r d, where d is the pixel's ray; a planar depth is r itself

@@ -5,6 +5,7 @@
 #include "plan/decal_order.h"
 #include "plan/emit_kernel.h"
 #include "plan/section.h"
+#include "plan/stored_planes.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
@@ -195,6 +196,9 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     if (const std::size_t count = options.precision.layers.size(); count != 0 && count != scene.layers.size())
         throw Error(fmt::format("{} precisions for {} layers", count, scene.layers.size()));
     Emitter emitter{kinds, scene, available, options, {}, {}};
+    emitter.plan.formats = checked_formats(available.formats, "the formats of a frame", /*apart=*/false);
+    emitter.plan.output_formats = checked_formats(options.output_formats, "the formats of outputs", /*apart=*/true);
+    require_planes(emitter.plan.formats, available.planes, "the formats of a frame");
     const std::vector<Section> sections = emit_sections(emitter);
     std::string bins;
     std::optional<PlannedKernel> tiles;
@@ -217,13 +221,13 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     plan.blocks = plan.tiles && !plan.neighbours && !options.split && plan.sums_over == 1;
 
     add_kernels(plan, sections, options, plan.sums_over);
-    std::set<std::string> inputs;
-    for (const PlannedKernel& kernel : plan.kernels) {
-        inputs.insert(kernel.inputs.begin(), kernel.inputs.end());
-        plan.outputs.insert(plan.outputs.end(), kernel.outputs.begin(), kernel.outputs.end());
-    }
-    plan.inputs.assign(inputs.begin(), inputs.end());
-    plan.bytes = sizeof(float) * static_cast<double>(plan.inputs.size() + plan.outputs.size());
+    std::ranges::sort(plan.inputs);
+    plan.inputs.erase(std::unique(plan.inputs.begin(), plan.inputs.end()), plan.inputs.end());
+    require_planes(plan.output_formats, {plan.outputs.begin(), plan.outputs.end()}, "the formats of outputs");
+    plan.input_memories = memories_of(plan.inputs, plan.formats);
+    plan.output_memories = memories_of(plan.outputs, plan.output_formats);
+    for (const std::string& memory : plan.input_memories) plan.bytes += pixel_bytes(memory, plan.formats);
+    for (const std::string& memory : plan.output_memories) plan.bytes += pixel_bytes(memory, plan.output_formats);
     for (const PlannedKernel& kernel : plan.kernels)
         plan.bytes += 1.5 * sizeof(float) * static_cast<double>(kernel.scratch.size());
     return plan;

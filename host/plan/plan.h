@@ -12,6 +12,7 @@
 
 #include "scene/layer_kind.h"
 #include "wrinkle/camera.h"
+#include "wrinkle/plane_format.h"
 #include "wrinkle/precision.h"
 #include "wrinkle/scene.h"
 
@@ -40,6 +41,8 @@ struct Available {
     std::uint16_t beauty_scale = 1;                    ///< pixels along each side of a pixel of the picture
     std::map<std::string, std::uint32_t> cryptomatte;  ///< hashes of the known object names
     std::map<std::pair<std::string, std::string>, VolumeFacts> volumes{};  ///< by file and grid, as the scene has them
+    PlaneFormats formats{};                                                ///< of planes that are not one float a pixel
+    DeviceDepth device_depth = DeviceDepth::none;
 };
 
 /// What is wanted of a plan beyond the scene.
@@ -50,6 +53,7 @@ struct PlanOptions {
     bool volume_gradient = false;  ///< write the sum of the volume gradients before any projection (accumulate_decals)
     bool view_footprint = false;   ///< no normal: footprints of a surface that faces the viewer
     Precisions precision{};
+    PlaneFormats output_formats{};  ///< of outputs that are not one float a pixel
     // Savings, which the benchmark switches off to measure what they are worth:
     bool skip = true;               ///< groups of pixels that do not want a layer, or lie outside a decal, skip it
     bool switches = false;          ///< branch at run time around every layer; those of scale 0 are switched off
@@ -128,7 +132,8 @@ struct PlannedDecals {
     std::function<void(PlannedDecals& table, const NumberSource& source)> take_rows;
 };
 
-/// One kernel: its planes in the order of its arguments. Scratch planes exist in split plans only.
+/// One kernel: its planes in the order of its arguments, those that share a memory by its name. Scratch planes exist in
+/// split plans only.
 struct PlannedKernel {
     std::string name;
     std::vector<std::string> inputs, scratch, outputs;
@@ -147,7 +152,10 @@ struct SectionSummary {
 struct Plan {
     std::string source;  ///< entry kernels; concept files are included by name
     std::vector<PlannedKernel> kernels;
-    std::vector<std::string> inputs, outputs;
+    std::vector<std::string> inputs, outputs;  ///< planes
+    /// Where they are: planes themselves, or what they share.
+    std::vector<std::string> input_memories, output_memories;
+    PlaneFormats formats, output_formats;  ///< of planes that are not one float a pixel
     std::vector<PlannedTexture> textures;
     std::vector<PlannedNumbers> numbers;
     std::vector<PlannedEyePlace> eye_places;
@@ -160,7 +168,7 @@ struct Plan {
     bool specular_apart = false;         ///< what the picture shows as specular is relit apart from the rest
     std::uint32_t sums_over = 1;         ///< pixels along each side of a pixel of the picture, whose light is added up
     std::vector<SectionSummary> sections;
-    double bytes = 0;  ///< expected per pixel: planes read and written once
+    double bytes = 0;  ///< expected per pixel: memory of planes read and written once
     /// Rows of the lighting's table of lights, in the order of the device's table; nothing: it has none.
     std::optional<std::vector<std::uint32_t>> light_order;
 };

@@ -11,7 +11,7 @@ namespace wrinkle {
 
 namespace {
 
-static_assert(sizeof(wr_camera) == 73 * sizeof(double) && sizeof(wr_light) == 16 * sizeof(double) &&
+static_assert(sizeof(wr_camera) == 76 * sizeof(double) && sizeof(wr_light) == 16 * sizeof(double) &&
                   sizeof(wr_projector) == 32 * sizeof(double) && sizeof(wr_lighting) == 35 * sizeof(double),
               "layout.h: members other than WR_SCALAR, or padding");
 
@@ -75,6 +75,7 @@ void split_constants(wr_camera& frame) {
     put_low(frame.d0_low, frame.d0), put_low(frame.dx_low, frame.dx), put_low(frame.dy_low, frame.dy);
     put_low(frame.c0_low, frame.c0), put_low(frame.c1_low, frame.c1), put_low(frame.c2_low, frame.c2);
     put_low(frame.c3_low, frame.c3), put_low(frame.w_low, frame.w);
+    frame.depth_offset_low = frame.depth_offset - static_cast<float>(frame.depth_offset);
 }
 
 wr_camera camera_constants(const Camera& camera, Size size) {
@@ -97,6 +98,7 @@ wr_camera camera_constants(const Camera& camera, Size size) {
         put(frame.dx_cross_dy, cross(rays->dx, rays->dy));
         put(frame.dy_cross_d0, cross(rays->dy, rays->d0));
         put(frame.dy_cross_dx, cross(rays->dy, rays->dx));
+        frame.depth_scale = camera.proj[2][3], frame.depth_offset = camera.proj[2][2];
     }
     const Mat4 inverse_vps = multiply(inverse(multiply(camera.proj, camera.view)), ndc_from_screen(size));
     double(*const columns[])[3] = {&frame.c0, &frame.c1, &frame.c2, &frame.c3};
@@ -119,6 +121,8 @@ wr_camera camera_constants(const Camera& camera, Size size) {
         put(frame.d0, flat(frame.c3));
         put(frame.dx, flat(frame.c0));
         put(frame.dy, flat(frame.c1));
+        frame.depth_scale = -camera.proj[3][3] / camera.proj[2][2];
+        frame.depth_offset = -camera.proj[2][3] / camera.proj[3][3];
     }
     split_constants(frame);
     return frame;

@@ -5,6 +5,7 @@
 
 #include "device/guarded.h"
 #include "layers/kinds.h"
+#include "plan/stored_planes.h"
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
 #include "run/shared_memory.h"
@@ -18,52 +19,83 @@ namespace {
 /// Pixels of a band when a pass runs from host memory: bounds what is staged, large enough to keep every core busy.
 constexpr std::size_t kBandPixels = std::size_t{1} << 20;
 
-template <class Span>
+/// Planes as bytes, by whoever holds numbers.
+template <class Byte, class T>
+std::map<std::string, std::span<Byte>> as_memory(const std::map<std::string, std::span<T>>& planes) {
+    std::map<std::string, std::span<Byte>> out;
+    for (const auto& [name, plane] : planes)
+        out.emplace(name, std::span<Byte>(reinterpret_cast<Byte*>(plane.data()), plane.size_bytes()));
+    return out;
+}
+
+template <class Span, class BytesOf>
 void check(const std::map<std::string, Span>& planes, const std::vector<std::string>& names, std::size_t pixels,
-           const char* what) {
+           const char* what, const BytesOf& bytes_of) {
     for (const std::string& name : names) {
         const auto found = planes.find(name);
         if (found == planes.end()) throw Error(fmt::format("no {} plane \"{}\"", what, name));
-        if (found->second.size() < pixels)
+        const std::size_t bytes = bytes_of(name);
+        if (found->second.size() < pixels * bytes)
             throw Error(fmt::format("{} plane \"{}\" holds {} numbers; the frame has {} pixels", what, name,
-                                    found->second.size(), pixels));
+                                    found->second.size() / bytes, pixels));
     }
 }
 
-template <class T>
-void run_bands(Pass::Impl& impl, const HostPlanes& in, const std::map<std::string, std::span<T>>& out,
-               const ToldShare& progress) {
+void run_bands(Pass::Impl& impl, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress) {
     const std::size_t width = impl.size.width, height = impl.size.height;
-    check(in, impl.plan.inputs, width * height, "input");
-    check(out, impl.plan.outputs, width * height, "output");
-    if (sizeof(T) != impl.bytes_per_output())
-        throw Error("outputs are double if and only if the pass is built with fp64");
-    refuse_shared_memory(in, impl.plan.inputs, out, impl.plan.outputs);
+    const std::vector<std::string>&read_from = impl.plan.input_memories, &written_to = impl.plan.output_memories;
+    const auto in_bytes = [&](const std::string& name) { return std::size_t{pixel_bytes(name, impl.plan.formats)}; };
+    const auto out_bytes = [&](const std::string& name) { return impl.output_bytes(name); };
+    check(in, read_from, width * height, "input", in_bytes);
+    check(out, written_to, width * height, "output", out_bytes);
+    refuse_shared_memory(in, read_from, out, written_to);
 
     const std::size_t least = impl.plan.sums_over;
     const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width / least * least, least, height);
     const std::size_t halo = impl.plan.neighbours ? 1 : 0;
-    PlaneBuffers inputs(impl.device, impl.plan.inputs, width * (rows + 2 * halo), sizeof(float));
-    PlaneBuffers outputs(impl.device, impl.plan.outputs, width * rows, sizeof(T));
+    PlaneBuffers inputs(impl.device, read_from, width * (rows + 2 * halo), in_bytes);
+    PlaneBuffers outputs(impl.device, written_to, width * rows, out_bytes);
     for (std::size_t first = 0; first < height; first += rows) {
         const std::size_t count = std::min(rows, height - first);
         const std::size_t before = std::min(halo, first), after = std::min(halo, height - first - count);
-        for (const std::string& name : impl.plan.inputs)
-            std::memcpy(inputs.map<float>(name, CL_MAP_WRITE), in.at(name).data() + (first - before) * width,
-                        (before + count + after) * width * sizeof(float));
+        for (const std::string& name : read_from) {
+            const std::size_t row = width * in_bytes(name);
+            std::memcpy(inputs.map<std::byte>(name, CL_MAP_WRITE), in.at(name).data() + (first - before) * row,
+                        (before + count + after) * row);
+        }
         inputs.unmap();
+        for (const std::string& name : written_to) {
+            if (!has_gaps(name, impl.plan.output_formats)) continue;
+            const std::size_t row = width * out_bytes(name);
+            std::memcpy(outputs.map<std::byte>(name, CL_MAP_WRITE), out.at(name).data() + first * row, count * row);
+        }
+        outputs.unmap();
         impl.enqueue(inputs.planes(), outputs.planes(),
                      {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
                       static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(after)},
                      both_ready(inputs, outputs))
             .wait();
-        for (const std::string& name : impl.plan.outputs)
-            std::memcpy(out.at(name).data() + first * width, outputs.map<T>(name, CL_MAP_READ),
-                        count * width * sizeof(T));
+        for (const std::string& name : written_to) {
+            const std::size_t row = width * out_bytes(name);
+            std::memcpy(out.at(name).data() + first * row, outputs.map<std::byte>(name, CL_MAP_READ), count * row);
+        }
         outputs.unmap();
         if (progress) progress(static_cast<double>(first + count) / static_cast<double>(height));
     }
     impl.save();
+}
+
+/// For callers that hold numbers: a plane in another format cannot be given so.
+template <class T>
+void run_numbers(Pass::Impl& impl, const HostPlanes& in, const std::map<std::string, std::span<T>>& out,
+                 const ToldShare& progress) {
+    if (sizeof(T) != impl.bytes_per_output())
+        throw Error("outputs are double if and only if the pass is built with fp64");
+    for (const PlaneFormats* formats : {&impl.plan.formats, &impl.plan.output_formats})
+        for (const auto& [plane, format] : *formats)
+            throw Error(fmt::format("the plane \"{}\" is {} in the memory \"{}\"; give the pass planes as bytes", plane,
+                                    encoding_name(format.encoding), format.memory));
+    run_bands(impl, as_memory<const std::byte>(in), as_memory<std::byte>(out), progress);
 }
 
 Pass make_pass(const char* what, const Device& device, const Scene& scene, const Frame& frame,
@@ -79,8 +111,9 @@ Pass::Pass(Pass&&) noexcept = default;
 Pass& Pass::operator=(Pass&&) noexcept = default;
 Pass::~Pass() = default;
 
-const std::vector<std::string>& Pass::inputs() const { return impl_->plan.inputs; }
-const std::vector<std::string>& Pass::outputs() const { return impl_->plan.outputs; }
+const std::vector<std::string>& Pass::inputs() const { return impl_->plan.input_memories; }
+const std::vector<std::string>& Pass::outputs() const { return impl_->plan.output_memories; }
+double Pass::bytes_per_pixel() const { return impl_->plan.bytes; }
 bool Pass::needs_neighbours() const { return impl_->plan.neighbours; }
 
 void Pass::set_camera(const Camera& camera) {
@@ -92,15 +125,20 @@ void Pass::set_parameters(const Scene& scene) {
 }
 
 void run(Pass& pass, const HostPlanes& in, const HostOutputs& out, const ToldShare& progress) {
-    guarded("run a pass", [&] { run_bands<float>(pass.impl(), in, out, progress); });
+    guarded("run a pass", [&] { run_numbers<float>(pass.impl(), in, out, progress); });
 }
 
 void run(Pass& pass, const HostPlanes& in, const HostDoubles& out, const ToldShare& progress) {
-    guarded("run a pass", [&] { run_bands<double>(pass.impl(), in, out, progress); });
+    guarded("run a pass", [&] { run_numbers<double>(pass.impl(), in, out, progress); });
+}
+
+void run(Pass& pass, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress) {
+    guarded("run a pass", [&] { run_bands(pass.impl(), in, out, progress); });
 }
 
 void Pass::run(const HostPlanes& in, const HostOutputs& out) { wrinkle::run(*this, in, out, {}); }
 void Pass::run(const HostPlanes& in, const HostDoubles& out) { wrinkle::run(*this, in, out, {}); }
+void Pass::run(const HostBytes& in, const HostByteOutputs& out) { wrinkle::run(*this, in, out, {}); }
 
 cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const std::vector<cl::Event>& wait) {
     return enqueue(in, out, {.first = 0, .count = impl_->size.height}, wait);
@@ -115,7 +153,7 @@ cl::Event Pass::enqueue(const DevicePlanes& in, const DevicePlanes& out, const R
         if (impl_->plan.neighbours && ((rows.first > 0 && rows.before == 0) || (end < height && rows.after == 0)))
             throw Error(fmt::format("rows {} to {} need a row before and after them, as the pass reads neighbours",
                                     rows.first, end));
-        refuse_shared_memory(in, impl_->plan.inputs, out, impl_->plan.outputs);
+        refuse_shared_memory(in, impl_->plan.input_memories, out, impl_->plan.output_memories);
         impl_->save_if_complete();
         const cl::Event done = impl_->enqueue(in, out, rows, wait);
         if (impl_->first_run() == nullptr) impl_->first_run = done;
@@ -130,7 +168,8 @@ Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, cons
 Pass evaluate(const Device& device, const Scene& scene, const Frame& frame, const PassOptions& options,
               TextureStore* store) {
     return make_pass("evaluate", device, scene, frame, options,
-                     {.split = options.split, .precision = options.precision}, store);
+                     {.split = options.split, .precision = options.precision, .output_formats = options.output_formats},
+                     store);
 }
 
 Pass accumulate_decals(const Device& device, std::span<const Layer> decals, const Frame& frame,
@@ -155,7 +194,8 @@ Pass accumulate_decals(const Device& device, const Scene& scene, const Frame& fr
                           .write_normal = false,
                           .volume_gradient = true,
                           .view_footprint = !normal,
-                          .precision = options.precision},
+                          .precision = options.precision,
+                          .output_formats = options.output_formats},
                          store);
     });
 }
@@ -164,7 +204,10 @@ Pass screen_derivatives(const Device& device, const Frame& frame, const PassOpti
     Scene scene;
     scene.output.dp_dx = scene.output.dp_dy = true;
     return make_pass("screen derivatives", device, scene, frame, options,
-                     {.split = options.split, .write_normal = false, .precision = options.precision});
+                     {.split = options.split,
+                      .write_normal = false,
+                      .precision = options.precision,
+                      .output_formats = options.output_formats});
 }
 
 }  // namespace wrinkle

@@ -11,6 +11,7 @@
 #include "device/work_group.h"
 #include "layers/kinds.h"
 #include "plan/decal_order.h"
+#include "plan/stored_planes.h"
 #include "resources/bin_bounds.h"
 #include "resources/frame_constants.h"
 #include "scene/check_scene.h"
@@ -75,11 +76,28 @@ void check_alignment(const cl::Buffer& buffer, const std::string& name, std::siz
                                 alignment));
 }
 
+/// Throws Error unless the camera's projection tells what the numbers of its depth buffer stand for.
+void check_device_depth(DeviceDepth device_depth, const Camera& camera, Size size) {
+    if (device_depth == DeviceDepth::none) return;
+    const auto& z = camera.proj[2];
+    const CameraKind kind = camera_kind(camera, size);
+    const bool useful = kind == CameraKind::pinhole ? z[3] != 0 : kind == CameraKind::parallel && z[2] != 0;
+    if (!useful || z[0] != 0 || z[1] != 0)
+        throw Error(
+            fmt::format("a device depth needs a perspective or parallel projection whose third row is 0, 0, a, b; "
+                        "found {}, {}, {}, {}",
+                        z[0], z[1], z[2], z[3]));
+    const bool reversed = kind == CameraKind::pinhole ? z[3] > 0 : z[2] > 0;
+    if (device_depth == DeviceDepth::minus_one_to_one && reversed)
+        throw Error("the projection is reversed; its device depth must be zero_to_one, as glClipControl sets it");
+}
+
 }  // namespace
 
 bool same_shape(const Frame& a, const Frame& b) {
     return a.size == b.size && a.planes == b.planes && a.ray_depth == b.ray_depth && a.cryptomatte == b.cryptomatte &&
-           a.beauty_scale == b.beauty_scale && camera_kind(a.camera, a.size) == camera_kind(b.camera, b.size);
+           a.beauty_scale == b.beauty_scale && a.formats == b.formats && a.device_depth == b.device_depth &&
+           camera_kind(a.camera, a.size) == camera_kind(b.camera, b.size);
 }
 
 Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options) {
@@ -90,11 +108,16 @@ Plan plan_for(const Scene& scene, const Frame& frame, const PlanOptions& options
             fmt::format("the frame has {} x {} pixels, which are no whole pixels of a beauty that has one for "
                         "{} along each side",
                         frame.size.width, frame.size.height, frame.beauty_scale));
+    check_device_depth(frame.device_depth, frame.camera, frame.size);
+    if (frame.ray_depth && frame.device_depth != DeviceDepth::none)
+        throw Error("the depth of a frame is that of a depth buffer, or the distance along rays; not both");
     Available available{.planes = frame.planes,
                         .camera = camera_kind(frame.camera, frame.size),
                         .ray_depth = frame.ray_depth,
                         .beauty_scale = static_cast<std::uint16_t>(frame.beauty_scale),
-                        .cryptomatte = frame.cryptomatte};
+                        .cryptomatte = frame.cryptomatte,
+                        .formats = frame.formats,
+                        .device_depth = frame.device_depth};
     for (const Layer& layer : scene.layers)
         if (const LayerKind& kind = kind_of(layer_kinds(), layer); kind.look) kind.look(layer, available);
     return make_plan(scene, available, options);
@@ -108,11 +131,14 @@ Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const Pa
       camera(shape.camera),
       size(shape.size),
       kind(camera_kind(shape.camera, shape.size)),
+      device_depth(shape.device_depth),
       plan(plan_for(of, shape, plan_options)),
       options(wanted) {
     if (options.lanes == 0) options.lanes = options.fp64 ? std::min(device.info.lanes, 8) : device.info.lanes;
     if (options.fp64 && !device.info.fp64)
         throw Error(fmt::format("{} has no double precision (cl_khr_fp64)", device.info.name));
+    if (options.fp64 && !plan.output_formats.empty())
+        throw Error("outputs of a pass in double are doubles; give it no output_formats");
     const auto textures_start = Clock::now();
     textures = store ? store->get(plan.textures) : TextureStore(device).get(plan.textures);
     texture_seconds = seconds_since(textures_start);
@@ -137,6 +163,7 @@ Pass::Impl::Impl(const Device& on, const Scene& of, const Frame& shape, const Pa
 void Pass::Impl::set_camera(const Camera& other) {
     if (camera_kind(other, size) != kind)
         throw Error("the new camera is of another kind (pinhole, parallel, general) than the one the pass is made for");
+    check_device_depth(device_depth, other, size);
     change([&] { camera = other; });
 }
 
@@ -216,12 +243,14 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     const std::size_t before = std::size_t{rows.before} * size.width;
     const std::size_t in_pixels = before + pixels + std::size_t{rows.after} * size.width;
     if (in_pixels > std::numeric_limits<cl_uint>::max()) throw Error("a band holds more than 2^32 pixels");
-    const std::size_t in_bytes = std::max(in_pixels, before + touched) * sizeof(float);
+    const auto input = [&](const std::string& name) -> const cl::Buffer& {
+        return plane(in, name, std::max(in_pixels, before + touched) * pixel_bytes(name, plan.formats));
+    };
     std::vector<cl::Event> after = wait;
     after.insert(after.end(), scratch_use.begin(), scratch_use.end());
     if (plan.tiles) {
         std::vector<cl::Buffer> planes;
-        for (const std::string& name : plan.tiles->inputs) planes.push_back(plane(in, name, in_bytes));
+        for (const std::string& name : plan.tiles->inputs) planes.push_back(input(name));
         std::vector<cl::Event> binned;
         for (TileBins* each : tile_bins())
             binned.push_back(each->enqueue(frame, numbers, planes, rows, size.width, static_cast<cl_uint>(before),
@@ -235,13 +264,14 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
                  &frame, &numbers, &eye_places, &textures->texels, &textures->table, &decals, &light_setup, &lights})
             kernel.setArg(i++, *buffer);
         for (const TileBins* each : tile_bins()) each->set_arguments(kernel, i);
-        for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, plane(in, name, in_bytes));
+        for (const std::string& name : plan.kernels[k].inputs) kernel.setArg(i++, input(name));
         for (const std::string& name : plan.kernels[k].scratch)
             kernel.setArg(
                 i++, scratch[static_cast<std::size_t>(std::ranges::find(scratch_names, name) - scratch_names.begin())]);
         for (const std::string& name : plan.kernels[k].outputs) {
-            const cl::Buffer& buffer = plane(out, name, touched * bytes_per_output());
-            check_alignment(buffer, name, static_cast<std::size_t>(options.lanes) * bytes_per_output());
+            const std::size_t bytes = output_bytes(name);
+            const cl::Buffer& buffer = plane(out, name, touched * bytes);
+            check_alignment(buffer, name, lanes * bytes);
             kernel.setArg(i++, buffer);
         }
         kernel.setArg(i++, static_cast<cl_uint>(before));
@@ -267,6 +297,10 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
     for (TileBins* each : tile_bins()) each->used_until(after.front());
     if (!scratch.empty()) scratch_use = {after.front()};
     return after.front();
+}
+
+std::size_t Pass::Impl::output_bytes(const std::string& memory) const {
+    return options.fp64 ? sizeof(double) : pixel_bytes(memory, plan.output_formats);
 }
 
 Pass::Impl::~Impl() {

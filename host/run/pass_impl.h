@@ -19,6 +19,7 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     Camera camera;
     Size size;
     CameraKind kind;
+    DeviceDepth device_depth;
     Plan plan;
     PassOptions options;
     BuiltProgram built;
@@ -67,6 +68,8 @@ struct [[gnu::visibility("hidden")]] Pass::Impl {
     /// completed.
     void save_if_complete();
     std::size_t bytes_per_output() const { return options.fp64 ? sizeof(double) : sizeof(float); }
+    /// Bytes from pixel to pixel of one of the plan's output_memories.
+    std::size_t output_bytes(const std::string& memory) const;
 };
 
 /// wrinkle::evaluate with textures from a store, for those who make several passes of a scene.
@@ -83,6 +86,7 @@ Pass accumulate_decals(const Device& device, const Scene& scene, const Frame& fr
 using ToldShare = std::function<void(double)>;
 void run(Pass& pass, const HostPlanes& in, const HostOutputs& out, const ToldShare& progress);
 void run(Pass& pass, const HostPlanes& in, const HostDoubles& out, const ToldShare& progress);
+void run(Pass& pass, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress);
 
 /// Whether a pass for one frame serves another, once it has its camera.
 bool same_shape(const Frame& a, const Frame& b);

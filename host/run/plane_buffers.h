@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,9 +18,14 @@ public:
     PlaneBuffers() = default;
     PlaneBuffers(const Device& device, const std::vector<std::string>& names, std::size_t pixels,
                  std::size_t bytes_each)
-        : queue_(device.context, device.device), bytes_(padded(pixels) * bytes_each) {
+        : PlaneBuffers(device, names, pixels, [=](const std::string&) { return bytes_each; }) {}
+    /// `bytes_of` a pixel, by the plane's name.
+    PlaneBuffers(const Device& device, const std::vector<std::string>& names, std::size_t pixels,
+                 const std::function<std::size_t(const std::string&)>& bytes_of)
+        : queue_(device.context, device.device) {
         for (const std::string& name : names)
-            planes_.emplace(name, cl::Buffer(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes_));
+            planes_.emplace(name, cl::Buffer(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                                             padded(pixels) * bytes_of(name)));
     }
     PlaneBuffers(const PlaneBuffers&) = delete;
     PlaneBuffers& operator=(const PlaneBuffers&) = delete;
@@ -38,7 +44,8 @@ public:
     /// The plane's memory, until unmap(). Blocks.
     template <class T>
     T* map(const std::string& name, cl_map_flags access) {
-        void* memory = queue_.enqueueMapBuffer(planes_.at(name), CL_TRUE, access, 0, bytes_, &ready_);
+        const cl::Buffer& plane = planes_.at(name);
+        void* memory = queue_.enqueueMapBuffer(plane, CL_TRUE, access, 0, plane.getInfo<CL_MEM_SIZE>(), &ready_);
         mapped_[name] = memory;
         return static_cast<T*>(memory);
     }
@@ -58,7 +65,6 @@ public:
 
 private:
     cl::CommandQueue queue_;
-    std::size_t bytes_ = 0;
     DevicePlanes planes_;
     std::map<std::string, void*> mapped_;
     std::vector<cl::Event> ready_;

@@ -66,12 +66,7 @@ void refuse_shared_memory(const DevicePlanes& in, const std::vector<std::string>
     refuse_shared(in, inputs, out, outputs);
 }
 
-void refuse_shared_memory(const HostPlanes& in, const std::vector<std::string>& inputs, const HostOutputs& out,
-                          const std::vector<std::string>& outputs) {
-    refuse_shared(in, inputs, out, outputs);
-}
-
-void refuse_shared_memory(const HostPlanes& in, const std::vector<std::string>& inputs, const HostDoubles& out,
+void refuse_shared_memory(const HostBytes& in, const std::vector<std::string>& inputs, const HostByteOutputs& out,
                           const std::vector<std::string>& outputs) {
     refuse_shared(in, inputs, out, outputs);
 }

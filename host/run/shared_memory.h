@@ -8,9 +8,7 @@ namespace wrinkle {
 /// only those count that a pass reads (`inputs`) or writes (`outputs`).
 void refuse_shared_memory(const DevicePlanes& in, const std::vector<std::string>& inputs, const DevicePlanes& out,
                           const std::vector<std::string>& outputs);
-void refuse_shared_memory(const HostPlanes& in, const std::vector<std::string>& inputs, const HostOutputs& out,
-                          const std::vector<std::string>& outputs);
-void refuse_shared_memory(const HostPlanes& in, const std::vector<std::string>& inputs, const HostDoubles& out,
+void refuse_shared_memory(const HostBytes& in, const std::vector<std::string>& inputs, const HostByteOutputs& out,
                           const std::vector<std::string>& outputs);
 
 }  // namespace wrinkle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "wrinkle/device.h"
 #include "wrinkle/gbuffer.h"
+#include "wrinkle/plane_format.h"
 #include "wrinkle/precision.h"
 #include "wrinkle/scene.h"
 
@@ -39,21 +41,26 @@ struct Frame {
     /// the picture is multiplied by ratios of it. Rows begin at multiples of it, and bands have whole ones.
     std::uint32_t beauty_scale = 1;
     std::map<std::string, std::uint32_t> cryptomatte{};  ///< hashes of names, for Cryptomatte masks
+    PlaneFormats formats{};                              ///< of planes that are not one float a pixel
+    DeviceDepth device_depth = DeviceDepth::none;        ///< "depth" is a depth buffer, no length in metres
 };
 
 using HostPlanes = std::map<std::string, std::span<const float>>;
 using HostOutputs = std::map<std::string, std::span<float>>;
 using HostDoubles = std::map<std::string, std::span<double>>;
-/// Each holds at least padded(pixels) floats, inputs of a band the rows before it on top of that; what lies beyond
-/// `pixels` is overwritten. Outputs that use host memory (CL_MEM_USE_HOST_PTR) must be aligned to one lane group, 128
-/// bytes at most.
+using HostBytes = std::map<std::string, std::span<const std::byte>>;  ///< planes in any formats, by Pass::inputs()
+using HostByteOutputs = std::map<std::string, std::span<std::byte>>;  ///< by Pass::outputs()
+/// Each holds at least padded(pixels) floats, or pixels of another format, inputs of a band the rows before it on top
+/// of that; what lies beyond `pixels` is overwritten. Outputs that use host memory (CL_MEM_USE_HOST_PTR) must be
+/// aligned to one lane group, 128 bytes at most.
 using DevicePlanes = std::map<std::string, cl::Buffer>;
 
 struct PassOptions {
-    int lanes = 0;           ///< pixels a work-item: 1, 4, 8 or 16; 0: the device's choice
-    bool fp64 = false;       ///< evaluate in double, as a reference; outputs are double
-    bool split = false;      ///< one kernel a layer through memory instead of one fused kernel, to compare
-    Precisions precision{};  ///< of the geometry and the layers; not with fp64, which needs none
+    int lanes = 0;                  ///< pixels a work-item: 1, 4, 8 or 16; 0: the device's choice
+    bool fp64 = false;              ///< evaluate in double, as a reference; outputs are double
+    bool split = false;             ///< one kernel a layer through memory instead of one fused kernel, to compare
+    Precisions precision{};         ///< of the geometry and the layers; not with fp64, which needs none
+    PlaneFormats output_formats{};  ///< of outputs that are not one float a pixel; not with fp64
 };
 
 /// Rows of the frame held by device planes: rows [first, first + count), preceded by `before` rows that only serve as
@@ -71,8 +78,9 @@ public:
     Pass& operator=(Pass&&) noexcept;
     ~Pass();
 
-    const std::vector<std::string>& inputs() const;   ///< planes that it reads
-    const std::vector<std::string>& outputs() const;  ///< planes that it writes
+    const std::vector<std::string>& inputs() const;   ///< planes that it reads; those that share a memory by its name
+    const std::vector<std::string>& outputs() const;  ///< planes that it writes, likewise
+    double bytes_per_pixel() const;                   ///< expected: of all that it reads and writes
     bool needs_neighbours() const;  ///< a band of rows needs one more row on each side, where the frame has one
 
     /// The same pass for another frame's camera, of the same kind.
@@ -91,6 +99,9 @@ public:
     /// size.height numbers. Throws Error when a plane is missing or too short, or an output overlaps another plane.
     void run(const HostPlanes& in, const HostOutputs& out);
     void run(const HostPlanes& in, const HostDoubles& out);  ///< for a pass built with fp64
+    /// The same of planes in any formats; those without one are floats, and outputs of a pass with fp64 doubles. Bytes
+    /// of an output's pixels that no plane lies in stay as they are.
+    void run(const HostBytes& in, const HostByteOutputs& out);
 
     /// Enqueues the whole frame on the device's queue; `wait` first. The event is complete when the outputs are. Events
     /// of other queues have to be flushed there, or they never come. Throws Error when a plane is missing or too small,

@@ -38,7 +38,7 @@ namespace [[gnu::visibility("default")]] wrinkle {
 /// origin of its view space. Throws Error where `camera.view` is singular or holds a number that is not finite.
 Vec3 eye_of(const Camera& camera);
 
-/// A wr_camera: 73 numbers. Members that end in _low are what a float leaves of the member without it. Both `d0`, `dx`,
+/// A wr_camera: 76 numbers. Members that end in _low are what a float leaves of the member without it. Both `d0`, `dx`,
 /// `dy` (pinholes and parallel projections) and `c0` ... `w` (any projection) are set. Throws Error for a frame without
 /// pixels, and where a matrix is singular or holds a number that is not finite.
 std::vector<double> camera_numbers(const Camera& camera, Size size);

@@ -73,6 +73,13 @@ TEST(Commands, Explain) {
     expect_mentions(text.out, {"decode the G-buffer", "constant \"tilt\"", "resolve", "light", "write", "kernel void",
                                "ops/pixel", "bytes of planes"});
     EXPECT_EQ(place.run("explain --no-source scene.toml").out.find("kernel void"), std::string::npos);
+    const Ran stored = place.run("explain --format normal=octahedral16 --format depth=half --json scene.toml");
+    EXPECT_EQ(nlohmann::json::parse(stored.out).at("bytes_per_pixel").get<double>() + (12 - 4) + (4 - 2),
+              nlohmann::json::parse(place.run("explain --json scene.toml").out).at("bytes_per_pixel").get<double>());
+    expect_mentions(stored.out, {"WR_STORED_OCTAHEDRAL, 4, 4, 0, 2"});
+    const Ran mistyped = place.run("explain --format normal=octahedral61 scene.toml");
+    EXPECT_NE(mistyped.code, 0);
+    expect_mentions(mistyped.err, {"\"octahedral61\"; did you mean \"octahedral16\"", "\"uint32\""});
     expect_mentions(place.run("explain --full scene.toml").out, {"#line 1 \"vec.clh\""});
     const auto json = nlohmann::json::parse(place.run("explain --json scene.toml").out);
     EXPECT_EQ(json.at("sections").size(), 5u);

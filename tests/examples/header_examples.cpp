@@ -16,6 +16,7 @@
 #include "wrinkle/limits.h"
 #include "wrinkle/noise_layer.h"
 #include "wrinkle/passes.h"
+#include "wrinkle/plane_format.h"
 #include "wrinkle/resources.h"
 #include "wrinkle/scene.h"
 #include "wrinkle/textures.h"
@@ -47,6 +48,21 @@ TEST(HeaderExample, GBuffer) {
     const std::vector<float> marked{3};
     const bool background = (static_cast<int>(marked[0]) & wrinkle::Marked::invalid) != 0;
     EXPECT_TRUE(background);
+}
+
+TEST(HeaderExample, PlaneFormat) {
+    const wrinkle::Size size{8, 4};
+    const auto camera = wrinkle::Camera::look_at({0, -5, 2}, {0, 0, 0}, {0, 0, 1}, 0.9, 2);
+    wrinkle::Frame frame{size, camera, {"depth", "normal.x", "normal.y", "normal.z", "roughness"}};
+    using enum wrinkle::PlaneEncoding;
+    frame.formats = wrinkle::interleaved("normals", octahedral16, {"normal.x", "normal.y", "normal.z"});
+    frame.formats["roughness"] = {.encoding = unorm8};
+    frame.formats["depth"] = {.encoding = half};
+    const auto pass = wrinkle::screen_derivatives(wrinkle::Device::open(), frame);
+    EXPECT_EQ(pass.inputs(), (std::vector<std::string>{"depth", "normals"}));
+    const auto rgba = wrinkle::interleaved("gbuffer0", wrinkle::PlaneEncoding::unorm8,
+                                           {"albedo.r", "albedo.g", "albedo.b", "roughness"});
+    EXPECT_EQ(rgba.at("roughness").offset, 3u);
 }
 
 TEST(HeaderExample, Device) {

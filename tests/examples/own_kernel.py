@@ -11,7 +11,7 @@ eye, center, half = np.array([0.25, -0.5, 4]), np.array([0.5, 0, 0]), np.array([
 
 # wr_camera. The ray through pixel (x, y) is d0 + x dx + y dy, 1 long along the view; x to the right, y down.
 d0, dx, dy = np.array([-2 / 3, 0.5, -1]), np.array([4 / 3 / width, 0, 0]), np.array([0, -1 / height, 0])
-camera = np.zeros(73)
+camera = np.zeros(76)
 camera[0:2], camera[2:5] = (width, height), eye  # eye_low stays 0, as floats hold this eye exactly
 camera[8:11], camera[11:14], camera[14:17] = d0, dx, dy
 camera[17:20], camera[20:23] = np.cross(dx, d0), np.cross(dx, dy)

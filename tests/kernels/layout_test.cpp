@@ -84,6 +84,7 @@ TEST(Layout, Frame) {
     MEMBER(c0), MEMBER(c1), MEMBER(c2), MEMBER(c3), MEMBER(w), MEMBER(forward);
     MEMBER(d0_low), MEMBER(dx_low), MEMBER(dy_low);
     MEMBER(c0_low), MEMBER(c1_low), MEMBER(c2_low), MEMBER(c3_low), MEMBER(w_low);
+    MEMBER(depth_scale), MEMBER(depth_offset), MEMBER(depth_offset_low);
     check_layout("wr_camera", members, sizeof s);
 }
 
