@@ -9,6 +9,8 @@ namespace wrinkle::python {
 
 using PlaneIn = nanobind::ndarray<const float, nanobind::c_contig, nanobind::device::cpu>;
 using PlaneOut = nanobind::ndarray<float, nanobind::c_contig, nanobind::device::cpu>;
+using BytesIn = nanobind::ndarray<const std::uint8_t, nanobind::c_contig, nanobind::device::cpu>;
+using BytesOut = nanobind::ndarray<std::uint8_t, nanobind::c_contig, nanobind::device::cpu>;
 using DoublesIn = nanobind::ndarray<const double, nanobind::c_contig, nanobind::device::cpu>;
 using DoublesOut = nanobind::ndarray<double, nanobind::c_contig, nanobind::device::cpu>;
 

@@ -52,6 +52,19 @@ struct OpenedFrame {
     }
 };
 
+DeviceDepth device_depth_of(const std::string& name) {
+    if (name.empty()) return DeviceDepth::none;
+    if (name == "zero_to_one") return DeviceDepth::zero_to_one;
+    if (name == "minus_one_to_one") return DeviceDepth::minus_one_to_one;
+    throw Error("device_depth is \"" + name + "\"; it can be \"zero_to_one\" or, of OpenGL, \"minus_one_to_one\"");
+}
+
+PlaneEncoding encoding_of(const std::string& name) {
+    for (int i = 0; i <= static_cast<int>(PlaneEncoding::uint32); ++i)
+        if (encoding_name(static_cast<PlaneEncoding>(i)) == name) return static_cast<PlaneEncoding>(i);
+    throw Error("no encoding of planes is called \"" + name + "\"");
+}
+
 }  // namespace
 
 void bind_frames(nb::module_& module) {
@@ -79,18 +92,38 @@ void bind_frames(nb::module_& module) {
         .def(
             "__init__",
             [](Frame* self, std::uint32_t width, std::uint32_t height, const Camera& camera,
-               std::set<std::string> planes, bool ray_depth, const std::vector<std::string>& objects) {
-                Frame frame{
-                    .size = {width, height}, .camera = camera, .planes = std::move(planes), .ray_depth = ray_depth};
+               std::set<std::string> planes, bool ray_depth, const std::vector<std::string>& objects,
+               PlaneFormats formats, const std::string& device_depth) {
+                Frame frame{.size = {width, height},
+                            .camera = camera,
+                            .planes = std::move(planes),
+                            .ray_depth = ray_depth,
+                            .formats = std::move(formats),
+                            .device_depth = device_depth_of(device_depth)};
                 for (const std::string& name : objects) frame.cryptomatte.emplace(name, CryptomatteManifest().id(name));
                 new (self) Frame(std::move(frame));
             },
             nb::arg("width"), nb::arg("height"), nb::arg("camera"), nb::arg("planes"), nb::arg("ray_depth"),
-            nb::arg("objects"))
+            nb::arg("objects"), nb::arg("formats"), nb::arg("device_depth"))
         .def_prop_ro("width", [](const Frame& frame) { return frame.size.width; })
         .def_prop_ro("height", [](const Frame& frame) { return frame.size.height; })
         .def_ro("camera", &Frame::camera)
         .def_ro("planes", &Frame::planes);
+    nb::class_<PlaneFormat>(module, "PlaneFormat", "How a plane is stored: its encoding, and where in pixels it lies.")
+        .def(
+            "__init__",
+            [](PlaneFormat* self, const std::string& encoding, std::uint32_t offset, std::uint32_t stride, double scale,
+               double bias, std::string memory) {
+                new (self) PlaneFormat{.encoding = encoding_of(encoding),
+                                       .offset = offset,
+                                       .stride = stride,
+                                       .scale = scale,
+                                       .bias = bias,
+                                       .memory = std::move(memory)};
+            },
+            nb::arg("encoding"), nb::arg("offset"), nb::arg("stride"), nb::arg("scale"), nb::arg("bias"),
+            nb::arg("memory"))
+        .def("__eq__", [](const PlaneFormat& a, const PlaneFormat& b) { return a == b; });
     nb::class_<OpenedFrame>(module, "OpenedFrame", "A frame of a scene, open.")
         .def(nb::init<const Scene&, int>(), nb::arg("scene"), nb::arg("number"),
              nb::call_guard<nb::gil_scoped_release>())

@@ -29,6 +29,18 @@ void run(Pass& pass, const std::map<std::string, PlaneIn>& in, const std::map<st
     told.around([&] { wrinkle::run(pass, inputs, outputs, [&](double share) { told(share); }); });
 }
 
+/// The same of planes in any formats, as arrays of bytes.
+void run_bytes(Pass& pass, const std::map<std::string, BytesIn>& in, const std::map<std::string, BytesOut>& out,
+               std::optional<nb::callable> progress) {
+    HostBytes inputs;
+    for (const auto& [name, array] : in) inputs.emplace(name, std::as_bytes(std::span(array.data(), array.size())));
+    HostByteOutputs outputs;
+    for (const auto& [name, array] : out)
+        outputs.emplace(name, std::as_writable_bytes(std::span(array.data(), array.size())));
+    Progress told(std::move(progress));
+    told.around([&] { wrinkle::run(pass, inputs, outputs, [&](double share) { told(share); }); });
+}
+
 DevicePlanes buffers(const std::map<std::string, std::uintptr_t>& pointers) {
     DevicePlanes out;
     for (const auto& [name, pointer] : pointers) out.emplace(name, cl::Buffer(reinterpret_cast<cl_mem>(pointer), true));
@@ -57,6 +69,8 @@ void bind_passes(nb::module_& module) {
         .def("set_scene", &Pass::set_parameters, nb::arg("scene"), nb::call_guard<nb::gil_scoped_release>())
         .def("run", &run<PlaneOut>, nb::arg("inputs"), nb::arg("outputs"), nb::arg("progress").none())
         .def("run", &run<DoublesOut>, nb::arg("inputs"), nb::arg("outputs"), nb::arg("progress").none())
+        .def("run_bytes", &run_bytes, nb::arg("inputs"), nb::arg("outputs"), nb::arg("progress").none())
+        .def_prop_ro("bytes_per_pixel", &Pass::bytes_per_pixel)
         .def("enqueue", &enqueue, nb::arg("inputs"), nb::arg("outputs"), nb::arg("wait"));
     module.def(
         "evaluate",

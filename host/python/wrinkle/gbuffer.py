@@ -14,14 +14,29 @@ from .scenes import Scene
 _roles = _wrinkle.gbuffer_roles()
 
 
+# How arrays are stored, by dtype; those of other numbers become floats.
+_encodings = {np.dtype(kind): name for kind, name in [
+    ("f4", "float32"), ("f2", "half"), ("u1", "unorm8"), ("u2", "unorm16"), ("i1", "snorm8"), ("i2", "snorm16"),
+    ("u4", "uint32")]}
+_octahedral = {np.dtype(np.int8): "octahedral8", np.dtype(np.int16): "octahedral16"}
+_vectors = {"normal", "tangent", "bitangent"}  # unsigned integers from 0 to 1 mean -1 to 1
+
+
 def _array(name: str, value) -> np.ndarray:
-    """`value` as an array of float32: the same memory where it is one already."""
+    """`value` as an array of numbers: the same memory where it is one already."""
     if not hasattr(value, "__array_interface__") and hasattr(value, "__dlpack__"):
         value = np.from_dlpack(value)
     array = np.asarray(value)
     if array.dtype.kind not in "fiub":
         raise Error(f'plane "{name}": float32 is wanted, or numbers that become it; found {array.dtype}')
-    return array.astype(np.float32, copy=False)
+    return array
+
+
+def _is_stored(role: str, array: np.ndarray) -> bool:
+    """Whether an array is used as it is stored, and not as floats."""
+    if array.dtype not in _encodings or role == "cryptomatte" or (role == "object") != (array.dtype == np.uint32):
+        return False
+    return array.dtype != np.float32 or (array.ndim == 3 and array.shape[2] == 4 and array.flags.c_contiguous)
 
 
 class GBuffer:
@@ -33,24 +48,38 @@ class GBuffer:
     planes       by role: position, normal (world space), depth, uv (v up), object, albedo, roughness, beauty, duv_dx, ...
                  (wrinkle.GBuffer.roles); cryptomatte: ids and coverages in turn, (height, width, 2 n)
 
-    Arrays of float32 whose components are planes of their own (numpy's moveaxis of a (components, height, width) array)
-    are used where they are; others are copied. Anything with __array_interface__ or __dlpack__ will do. Pixels of the
-    background have a normal of zero, or a depth that is not finite.
+    device_depth depth is that of a depth buffer, z / w of the camera's projection, reversed or infinite as that is:
+                 "zero_to_one", or "minus_one_to_one" of OpenGL, whose buffers hold (z / w + 1) / 2
+
+    Planes are used as they are stored, without copies where they are contiguous: float32 whose components are planes of
+    their own (numpy's moveaxis of a (components, height, width) array), and arrays (height, width) or (height, width,
+    components) of float16; of uint8 and uint16, 0 to 1 (of normals and tangents -1 to 1); of int8 and int16, -1 to 1; of
+    uint32 for `object`. Three components may have a fourth beside them, which is not read (RGBA). Two
+    of int8 or int16 for `normal` are octahedral coordinates. Other numbers become float32: objects of other integers,
+    float64, int64, float32 of (height, width, 3). Anything with __array_interface__ or __dlpack__ will do.
+    Pixels of the background have a normal of zero, or a depth that is not finite.
     """
 
     roles = {role: len(planes) for role, planes in _roles.items()}
 
-    def __init__(self, *, camera: Camera, ray_depth: bool = False, channels: dict | None = None, **planes):
+    def __init__(self, *, camera: Camera, ray_depth: bool = False, device_depth: str = "",
+                 channels: dict | None = None, **planes):
         if not isinstance(camera, Camera):
             camera = Camera(np.asarray(camera.view).tolist(), np.asarray(camera.proj).tolist())
-        self.camera, self.ray_depth = camera, ray_depth
+        self.camera, self.ray_depth, self.device_depth = camera, ray_depth, device_depth
+        self._formats: dict[str, _wrinkle.PlaneFormat] = {}
+        self._memory: dict[str, np.ndarray] = {}  # by name: those of planes with a format
         self._planes: dict[str, np.ndarray] = {}
         self._shape: tuple[int, int] | None = None
         self._opened = None
         for role, value in planes.items():
             self._add_role(role, value)
         for name, value in (channels or {}).items():
-            self._add(f"channel:{name}", name, _array(name, value))
+            array = _array(name, value)
+            if _is_stored(name, array) and array.ndim == 2:
+                self._store(name, [f"channel:{name}"], array)
+            else:
+                self._add(f"channel:{name}", name, array)
         if self._shape is None:
             raise Error("a G-buffer without planes: give at least normal, and depth or position")
 
@@ -67,7 +96,7 @@ class GBuffer:
             raise Error("this scene names no frame; give a GBuffer, or gbuffer={\"file\": \"frame.exr\"}")
         out = cls.__new__(cls)
         out._opened = _wrinkle.OpenedFrame(scene._scene, number)
-        out._planes = {}
+        out._planes, out._formats, out._memory, out.device_depth = {}, {}, {}, ""
         frame = out._opened.frame
         out._shape, out.camera = (frame.height, frame.width), frame.camera
         return out
@@ -83,7 +112,8 @@ class GBuffer:
         return sorted(self._opened.frame.planes if self._opened else self._planes)
 
     def plane(self, name: str) -> np.ndarray:
-        """A plane by its name, (height, width) of float32; a frame's file is read for it."""
+        """A plane by its name, (height, width), as it is stored: float32 unless it was given otherwise. A frame's file is
+        read for it."""
         return self._take([name])[name]
 
     def _take(self, names: Iterable[str]) -> dict[str, np.ndarray]:
@@ -97,13 +127,21 @@ class GBuffer:
                 raise Error(f'plane "{name}" is needed; there are {", ".join(self.names)}')
         return {name: self._planes[name] for name in names}
 
+    def _bytes(self, memories: Iterable[str]) -> dict[str, np.ndarray]:
+        """Memories of planes, as a pass with formats names them."""
+        out = {}
+        for name in memories:
+            array = self._memory[name] if name in self._memory else self._take([name])[name]
+            out[name] = array.reshape(-1).view(np.uint8)
+        return out
+
     def _frame(self, scene: Scene | None = None):
         """What a pass may count on, with the ids of the objects that the scene names."""
         if self._opened:
             return self._opened.frame_for(scene._scene) if scene else self._opened.frame
         height, width = self._shape
         return _wrinkle.Frame(width, height, self.camera, set(self._planes), self.ray_depth,
-                              list(scene._scene.objects) if scene else [])
+                              list(scene._scene.objects) if scene else [], self._formats, self.device_depth)
 
     def _add_role(self, role: str, value):
         if role not in _roles and role != "cryptomatte":
@@ -114,13 +152,39 @@ class GBuffer:
                                      enumerate(["id", "coverage"] * (array.shape[-1] // 2))]
         if len(names) == 1 and array.ndim == 2:
             array = array[..., None]
+        if _is_stored(role, array) and array.ndim == 3:
+            components = array.shape[2]
+            if components == len(names) or (len(names) == 3 and components == 4) or \
+                    (role == "normal" and components == 2 and array.dtype in _octahedral):
+                self._store(role, names, array)
+                return
         if array.ndim != 3 or array.shape[2] != len(names):
             wanted = "(height, width)" if len(names) == 1 else f"(height, width, {len(names)})"
             raise Error(f'plane "{role}": the shape {wanted} is wanted; found {np.shape(value)}')
         for k, name in enumerate(names):
             self._add(name, role, array[..., k])
 
+    def _store(self, role: str, names: list[str], array: np.ndarray):
+        """Keeps planes as they are stored, in pixels together."""
+        array = np.ascontiguousarray(array)
+        size, components = array.dtype.itemsize, array.shape[2] if array.ndim == 3 else 1
+        octahedral = len(names) == 3 and components == 2
+        encoding = (_octahedral if octahedral else _encodings)[array.dtype]
+        to_signed = role in _vectors and array.dtype.kind == "u"
+        memory = names[0] if components == 1 else role
+        for k, name in enumerate(names):
+            plane = array if array.ndim == 2 else array[..., min(k, components - 1)]
+            self._check(role, plane)
+            self._planes[name] = plane
+            self._formats[name] = _wrinkle.PlaneFormat(encoding, 0 if octahedral else k * size, components * size,
+                                                       2 if to_signed else 1, -1 if to_signed else 0, memory)
+        self._memory[memory] = array
+
     def _add(self, name: str, role: str, plane: np.ndarray):
+        self._check(role, plane)
+        self._planes[name] = np.ascontiguousarray(plane, np.float32)
+
+    def _check(self, role: str, plane: np.ndarray):
         if plane.ndim != 2 or 0 in plane.shape:
             raise Error(f'plane "{role}": the shape (height, width) is wanted; found {plane.shape}')
         if self._shape is None:
@@ -128,4 +192,3 @@ class GBuffer:
         if plane.shape != self._shape:
             raise Error(f'plane "{role}": {plane.shape[1]} x {plane.shape[0]} pixels, where the planes before it have '
                         f'{self._shape[1]} x {self._shape[0]}')
-        self._planes[name] = np.ascontiguousarray(plane)

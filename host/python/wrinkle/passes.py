@@ -42,6 +42,7 @@ class Pass:
 
     def _start(self, built, gbuffer: GBuffer, fp64: bool):
         self._pass, self._shape, self._type = built, gbuffer.shape, np.float64 if fp64 else np.float32
+        self._formats, self._device_depth = dict(gbuffer._formats), gbuffer.device_depth
         return self
 
     @property
@@ -53,6 +54,11 @@ class Pass:
     def outputs(self) -> list[str]:
         """Planes that it writes."""
         return self._pass.outputs
+
+    @property
+    def bytes_per_pixel(self) -> float:
+        """Of all planes that it reads and writes."""
+        return self._pass.bytes_per_pixel
 
     def set(self, scene: Scene):
         """Takes the numbers of another scene of the same structure: strengths, frequencies, colours, lights. Nothing is
@@ -68,13 +74,19 @@ class Pass:
         if gbuffer.shape != self._shape:
             raise _wrinkle.Error(f"this pass is for {self._shape[1]} x {self._shape[0]} pixels; the frame has "
                                  f"{gbuffer.shape[1]} x {gbuffer.shape[0]}")
+        if gbuffer._formats != self._formats or gbuffer.device_depth != self._device_depth:
+            raise _wrinkle.Error("this pass is for planes of other types, or of another layout, than the frame has")
         self._pass.set_camera(gbuffer.camera)
         groups: dict[str, list[str]] = {}
         for name in self.outputs:
             groups.setdefault(name.partition(".")[0], []).append(name)
         arrays = {group: np.empty((len(names), *self._shape), self._type) for group, names in groups.items()}
         planes = {name: arrays[group][k] for group, names in groups.items() for k, name in enumerate(names)}
-        self._pass.run(gbuffer._take(self.inputs), planes, progress)
+        if self._formats:
+            whole = {name: plane.reshape(-1).view(np.uint8) for name, plane in planes.items()}
+            self._pass.run_bytes(gbuffer._bytes(self.inputs), whole, progress)
+        else:
+            self._pass.run(gbuffer._take(self.inputs), planes, progress)
         return {group: array[0] if len(array) == 1 else np.moveaxis(array, 0, -1) for group, array in arrays.items()}
 
     def enqueue(self, inputs: dict[str, int], outputs: dict[str, int], wait=()) -> int:
