@@ -88,6 +88,12 @@ std::optional<double> memory_of_environment() {
     return gigabytes * kGigabyte;
 }
 
+std::optional<double> address_limit() {
+    rlimit own{};
+    if (::getrlimit(RLIMIT_AS, &own) != 0 || own.rlim_cur == RLIM_INFINITY) return {};
+    return static_cast<double>(own.rlim_cur);
+}
+
 }  // namespace
 
 void set_limits(const Limits& limits) {
@@ -112,11 +118,15 @@ MemoryLimit memory_limit() {
     take(static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)), taken.memory,
          "the machine");
     take(cgroup_limit(), taken.memory, "the cgroup");
-    if (rlimit own{}; ::getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY)
-        take(static_cast<double>(own.rlim_cur), taken.addresses, "the process (ulimit -v)");
+    take(address_limit(), taken.addresses, "the process (ulimit -v)");
     take(memory_of_environment(), taken.memory, "WRINKLE_MEMORY");
     take(static_cast<double>(limits().memory), taken.memory, "--memory");
     return least;
+}
+
+double address_room() {
+    const std::optional<double> limit = address_limit();
+    return limit ? *limit - taken_memory().addresses : std::numeric_limits<double>::infinity();
 }
 
 bool is_memory_set() { return limits().memory != 0 || memory_of_environment().has_value(); }

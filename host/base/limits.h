@@ -20,6 +20,9 @@ struct MemoryLimit {
 };
 MemoryLimit memory_limit();
 
+/// How many bytes of addresses the process may still take (ulimit -v); infinite without that limit.
+double address_room();
+
 /// Whether somebody has said how much memory this process may take, by --memory or WRINKLE_MEMORY.
 bool is_memory_set();
 

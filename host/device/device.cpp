@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/resource.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <mutex>
+#include <thread>
 
+#include "base/limits.h"
 #include "device/choose_device.h"
 #include "device/drivers.h"
 #include "device/found_device.h"
@@ -15,10 +20,28 @@ namespace wrinkle {
 
 namespace {
 
+/// PoCL ends the process where it cannot start its threads, one a core, each with a stack; it does so when the loader
+/// counts its devices. Drivers that are loaded before have taken what they take.
+void check_room_for_threads() {
+    if (std::isinf(address_room())) return;
+    broken_drivers();
+    constexpr double beside = 64e6, unlimited = 8e6;  // bytes: what drivers take meanwhile; a stack without a limit
+    rlimit stack{};
+    const bool limited = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
+    const double threads = std::max(1u, std::thread::hardware_concurrency());
+    const double wanted = beside + threads * (limited ? static_cast<double>(stack.rlim_cur) : unlimited);
+    if (const double room = address_room(); room < wanted)
+        throw Error(
+            fmt::format("the limit of the process (ulimit -v) leaves {:.0f} MB of addresses; OpenCL's drivers "
+                        "may take {:.0f} MB for their threads, and some end the program without",
+                        std::max(room, 0.0) / 1e6, wanted / 1e6));
+}
+
 std::vector<FoundDevice> all_devices() {
     // PoCL 3.1 finds its devices when it is first asked for them, and tells threads that ask meanwhile of none.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
+    check_room_for_threads();
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

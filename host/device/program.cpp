@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
+#include "base/limits.h"
 #include "device/build_log.h"
 #include "device/kernel_sources.h"
 #include "device/program_cache.h"
@@ -31,6 +33,28 @@ std::string device_flags(const Device& device) {
     return flags;
 }
 
+/// Compilers within drivers (LLVM) do not survive a lack of memory. The frames and scenes of the tests need up to 400
+/// MB of addresses, most of them for the pools of the threads that compile.
+void check_room_to_compile() {
+    constexpr double wanted = 550e6;
+    if (const double room = address_room(); room < wanted)
+        throw Error(
+            fmt::format("the limit of the process (ulimit -v) leaves {:.0f} MB of addresses; OpenCL's compilers "
+                        "may take {:.0f} MB, and end the program without",
+                        std::max(room, 0.0) / 1e6, wanted / 1e6));
+}
+
+/// Builds `program`. An exception that crosses PoCL leaves its program locked for ever, also for whoever releases it:
+/// then the handle is forgotten.
+void build(cl::Program& program, const Device& device, const std::string& flags) {
+    try {
+        program.build(device.device, flags.c_str());
+    } catch (const std::bad_alloc&) {
+        program() = nullptr;
+        throw Error(fmt::format("out of memory while {} builds a kernel", device.info.name));
+    }
+}
+
 }  // namespace
 
 BuiltProgram build_program(const Device& device, const std::string& text, const BuildOptions& options) {
@@ -49,7 +73,7 @@ BuiltProgram build_program(const Device& device, const std::string& text, const 
         if (std::vector<unsigned char> binary = read_program(built.cache_file, built.key); !binary.empty()) {
             try {
                 built.program = cl::Program(device.context, {device.device}, cl::Program::Binaries{std::move(binary)});
-                built.program.build(device.device, flags.c_str());
+                build(built.program, device, flags);
                 built.source = BuildSource::disk;
                 return built;
             } catch (const cl::Error&) {
@@ -57,9 +81,10 @@ BuiltProgram build_program(const Device& device, const std::string& text, const 
             }
         }
     }
+    check_room_to_compile();
     built.program = cl::Program(device.context, source);
     try {
-        built.program.build(device.device, flags.c_str());
+        build(built.program, device, flags);
     } catch (const cl::Error& error) {
         throw Error(fmt::format("kernel build failed ({}) on {}:\n{}", error.err(), device.info.name,
                                 build_errors(built.program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device))));
