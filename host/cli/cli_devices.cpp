@@ -38,10 +38,9 @@ void devices(bool json) {
             d.lanes == 1 ? "" : "s", d.fp64 ? "yes" : "no");
     }
     const char* wanted = std::getenv("WRINKLE_DEVICE");
-    fmt::print("without --device: {} ({})\n", choose_device(list, wanted != nullptr ? wanted : ""),
-               wanted != nullptr ? "WRINKLE_DEVICE"
-                                 : "a GPU, else the CPU with the most compute units times lanes; WRINKLE_DEVICE sets "
-                                   "another");
+    const std::string rule =
+        wanted != nullptr ? "WRINKLE_DEVICE" : fmt::format("a GPU, else {}; WRINKLE_DEVICE sets another", kFastestCpu);
+    fmt::print("without --device: {} ({})\n", choose_device(list, wanted != nullptr ? wanted : ""), rule);
     for (const std::string& driver : broken_drivers()) fmt::print("not loaded: {}\n", driver);
 }
 

@@ -13,8 +13,10 @@ namespace wrinkle {
 namespace {
 
 /// How many numbers a device works on at once, as far as it tells; GPUs before all else.
-std::uint64_t speed(const DeviceInfo& info) {
-    const std::uint64_t width = std::uint64_t{info.compute_units} * static_cast<std::uint64_t>(info.lanes);
+std::uint64_t speed(const DeviceInfo& info, unsigned processors) {
+    const bool limited = info.type == "cpu" && processors > 0;
+    const std::uint64_t units = limited ? std::min(info.compute_units, processors) : info.compute_units;
+    const std::uint64_t width = units * static_cast<std::uint64_t>(info.lanes);
     return info.type == "gpu" ? width + (std::uint64_t{1} << 62) : info.type == "cpu" ? width : 0;
 }
 
@@ -27,8 +29,11 @@ bool matches(const DeviceInfo& info, std::size_t number, const std::string& want
 
 }  // namespace
 
-std::size_t choose_device(std::span<const DeviceInfo> devices, const std::string& wanted) {
-    if (wanted.empty()) return static_cast<std::size_t>(std::ranges::max_element(devices, {}, speed) - devices.begin());
+std::size_t choose_device(std::span<const DeviceInfo> devices, const std::string& wanted, unsigned processors) {
+    const auto fastest = [&] {
+        return std::ranges::max_element(devices, {}, [&](const DeviceInfo& info) { return speed(info, processors); });
+    };
+    if (wanted.empty()) return static_cast<std::size_t>(fastest() - devices.begin());
     const std::string name = lower(wanted);
     std::string listing;
     for (std::size_t i = 0; i < devices.size(); ++i) {

@@ -25,11 +25,19 @@ DeviceInfo device(const char* type, const char* name, unsigned units, int lanes)
 TEST(ChooseDevice, TakesAGpuElseTheWidestCpu) {
     const std::vector<DeviceInfo> cpus{device("cpu", "small", 2, 8), device("cpu", "large", 8, 16),
                                        device("accelerator", "odd", 999, 16)};
-    EXPECT_EQ(choose_device(cpus, ""), 1u);
+    EXPECT_EQ(choose_device(cpus, "", 0), 1u);
     std::vector<DeviceInfo> all = cpus;
     all.push_back(device("gpu", "card", 1, 1));
-    EXPECT_EQ(choose_device(all, ""), 3u);
+    EXPECT_EQ(choose_device(all, "", 0), 3u);
     EXPECT_EQ(choose_device(std::span(cpus).last(1), ""), 0u);
+}
+
+TEST(ChooseDevice, TakesNoCpuForFasterThanTheProcessorsThatItHas) {
+    const std::vector<DeviceInfo> two{device("cpu", "llvmpipe", 8, 4), device("cpu", "pocl", 2, 8)};
+    EXPECT_EQ(choose_device(two, "", 2), 1u);   // 2 x 4 and 2 x 8
+    EXPECT_EQ(choose_device(two, "", 64), 0u);  // 8 x 4 and 2 x 8
+    const std::vector<DeviceInfo> equal{device("cpu", "a", 2, 8), device("cpu", "b", 4, 8)};
+    EXPECT_EQ(choose_device(equal, "", 2), 0u);
 }
 
 TEST(ChooseDevice, ByNumberTypeNamePlatformOrVersion) {
