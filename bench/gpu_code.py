@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""What GPUs would run, without one: compiles the kernel of every scene at one lane for an AMD GPU (gfx906) and an NVIDIA
-one (sm_80) with clang and libclc, and prints registers, private memory and waves as a table. Exit code 1 where a kernel
-keeps values in private memory, or takes more registers than its limit.
+"""What GPUs would run, without one: compiles the kernels of every scene at one lane for an AMD GPU (gfx906) and an NVIDIA
+one (sm_80) with clang and libclc, and prints registers, private memory and waves as a table. With a file that holds such
+a table, exit code 1 where a number has become worse than there or a row is missing; 77 where libclc is not installed.
 
-    bench/gpu_code.py build/release/wrinkle [SCENE ...]          # Debian: clang-15, libclc-15, libclc-15-dev
+    bench/gpu_code.py build/release/wrinkle [bench/README.md]    # Debian: clang-15, libclc-15, libclc-15-dev
 """
 
+import concurrent.futures
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -14,16 +16,18 @@ import sys
 import tempfile
 
 root = pathlib.Path(__file__).parents[1]
-program, scenes = sys.argv[1], sys.argv[2:] or sorted((root / "data/scenes").glob("*.toml"))
+program = sys.argv[1]
 COMMON = ["clang-15", "-x", "cl", "-cl-std=CL1.2", "-O3", "-S", "-nogpulib", "-Wno-everything", "-DWR_LANES=1",
           f"-I{root / 'kernels'}", "-Xclang", "-finclude-default-header"]
+BUILTINS = pathlib.Path("/usr/lib/clc")
 TARGETS = {
     "AMD": (["-target", "amdgcn-mesa-mesa3d", "-mcpu=gfx906"], "gfx906-amdgcn-mesa-mesa3d.bc"),
     "NVIDIA": (["-target", "nvptx64-nvidia-nvcl", "-Xclang", "-target-cpu", "-Xclang", "sm_80"],
                "nvptx64--nvidiacl.bc"),
 }
-MOST_REGISTERS = 96
-OWN_LIMIT = {"courtyard": 128, "parallax": 146, "decal_table": 256}
+HEAD = """| scene, kernel | AMD: vector registers | waves a SIMD | private bytes | NVIDIA: private bytes |
+|---|---|---|---|---|"""
+WORSE = (lambda a, b: a > b, lambda a, b: a < b, lambda a, b: a > b, lambda a, b: a > b)
 
 
 def assembly(source, target):
@@ -31,29 +35,62 @@ def assembly(source, target):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "kernel.cl"
         path.write_text(source)
-        library = ["-Xclang", "-mlink-bitcode-file", "-Xclang", f"/usr/lib/clc/{builtins}"]
-        done = subprocess.run([*COMMON, *flags, *library, str(path), "-o", f"{folder}/kernel.s"], capture_output=True,
-                              text=True)
+        library = ["-Xclang", "-mlink-bitcode-file", "-Xclang", BUILTINS / builtins]
+        done = subprocess.run([*COMMON, *flags, *library, path, "-o", f"{folder}/kernel.s"], capture_output=True, text=True)
         if done.returncode:
             sys.exit(f"{target}: {done.stderr[:2000]}")
         return pathlib.Path(f"{folder}/kernel.s").read_text()
 
 
-def largest(pattern, text):
-    return max((int(n) for n in re.findall(pattern, text)), default=0)
+def kernels_of_amd(text):
+    """By kernel: vector registers, waves a SIMD, bytes of private memory; those of functions it calls included."""
+    rows = {}
+    for block in text.split("; -- Begin function ")[1:]:
+        if "; Kernel info:" in block:
+            rows[block.split(maxsplit=1)[0]] = [int(re.search(rf"^; {what}: (\d+)", block, re.MULTILINE)[1])
+                                                for what in ("NumVgprs", "Occupancy", "ScratchSize")]
+    return rows
 
 
-failed = []
-print("| scene | AMD: vector registers | waves a SIMD | private bytes | NVIDIA: private bytes |\n|---|---|---|---|---|")
-for scene in map(pathlib.Path, scenes):
+def private_of_nvidia(text, kernel):
+    """Bytes of private memory of a kernel, and of what it calls."""
+    bodies = {at[1]: text[at.start():text.index("\n}", at.start())]
+              for at in re.finditer(r"\.(?:entry|func)\s+(?:\([^)]*\)\s*)?(\w+)\(", text)}
+
+    def private(name):
+        depot = re.search(r"__local_depot\d+\[(\d+)\]", bodies[name])
+        called = set(re.findall(r"\w+", bodies[name])) & bodies.keys() - {name}
+        return (int(depot[1]) if depot else 0) + max(map(private, called), default=0)
+
+    return private(kernel)
+
+
+def rows_of(scene):
     told = subprocess.run([program, "explain", "--lanes", "1", "--json", scene], check=True, capture_output=True, text=True)
     source = json.loads(told.stdout)["source"]
     amd, nvidia = assembly(source, "AMD"), assembly(source, "NVIDIA")
-    registers, private = largest(r"NumVgprs: (\d+)", amd), largest(r"ScratchSize: (\d+)", amd)
-    waves = min((int(n) for n in re.findall(r"Occupancy: (\d+)", amd)), default=0)
-    depot = largest(r"__local_depot\d+\[(\d+)\]", nvidia)
-    print(f"| {scene.stem} | {registers} | {waves} | {private} | {depot} |", flush=True)
-    if private or depot or registers > OWN_LIMIT.get(scene.stem, MOST_REGISTERS):
-        failed.append(scene.stem)
-if failed:
-    sys.exit(f"private memory, or more registers than wanted: {', '.join(failed)}")
+    return {f"{scene.stem}, {kernel.removeprefix('wr_')}": [*row, private_of_nvidia(nvidia, kernel)]
+            for kernel, row in kernels_of_amd(amd).items()}
+
+
+def rows_of_table(path):
+    rows = re.findall(r"^\| (\w+, \w+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", pathlib.Path(path).read_text(), re.MULTILINE)
+    return {name: [int(n) for n in numbers] for name, *numbers in rows}
+
+
+if not all((BUILTINS / builtins).exists() for _, builtins in TARGETS.values()):
+    print("no libclc: on Debian, \"apt-get install libclc-15 libclc-15-dev\"")
+    sys.exit(77)
+with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
+    made = {name: row for rows in threads.map(rows_of, sorted((root / "data/scenes").glob("*.toml")))
+            for name, row in rows.items()}
+print(HEAD)
+for name, row in made.items():
+    print(f"| {name} | {' | '.join(map(str, row))} |")
+if len(sys.argv) > 2:
+    known = rows_of_table(sys.argv[2])
+    failed = [f"{name}: {row}, was {known.get(name, 'not there')}" for name, row in made.items()
+              if name not in known or any(worse(a, b) for worse, a, b in zip(WORSE, row, known[name]))]
+    failed += [f"{name}: is gone" for name in known if name not in made]
+    if failed:
+        sys.exit("worse than, or not in, the table; where that must be, put the new one there:\n" + "\n".join(failed))

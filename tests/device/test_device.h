@@ -1,9 +1,12 @@
 // The device that tests run on.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "wrinkle/device.h"
 
@@ -23,6 +26,23 @@ inline const Device& test_device() {
         return Device::open(test_device_name());
     }();
     return device;
+}
+
+/// Of some numbers of lanes, those to test: those that WRINKLE_TEST_LANES names ("1", "1 4"), or all where it is not
+/// set.
+inline std::vector<int> lanes_to_try(const std::vector<int>& wanted = {1, 4, 8, 16}) {
+    const char* named = std::getenv("WRINKLE_TEST_LANES");
+    if (named == nullptr) return wanted;
+    std::vector<int> lanes;
+    std::istringstream words(named);
+    for (int n = 0; words >> n;)
+        if (std::ranges::find(wanted, n) != wanted.end()) lanes.push_back(n);
+    return lanes;
+}
+
+/// Whether to test double: false, and true where the device has it.
+inline std::vector<bool> precisions_to_try() {
+    return test_device().info.fp64 ? std::vector<bool>{false, true} : std::vector<bool>{false};
 }
 
 }  // namespace wrinkle::test

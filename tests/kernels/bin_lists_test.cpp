@@ -76,7 +76,7 @@ struct BinSetup {
     }
 };
 
-Lists lists_of(const BinSetup& setup, unsigned capacity) {
+Lists lists_of(const BinSetup& setup, unsigned capacity, int lanes) {
     const Device& device = test_device();
     const BuiltProgram built = build_program(
         device,
@@ -89,7 +89,7 @@ Lists lists_of(const BinSetup& setup, unsigned capacity) {
         "    wr_bin_around(children, 16, 0, around, 1);\n"
         "    wr_bin_super(all, around, 1, 0, super_list, entries, capacity, used);\n"
         "    wr_bin_children(all, children, 16, 0, super_list, child_lists, entries, hits, capacity, used);\n}\n",
-        {1, false});
+        {lanes, false});
     std::vector<cl_uint> entries(capacity), super(3), children(48), used{kDecals};
     std::iota(entries.begin(), entries.begin() + kDecals, 0u);
     std::vector<cl_ushort> hits(capacity);
@@ -132,9 +132,17 @@ std::vector<unsigned> everything() {
     return all;
 }
 
-TEST(BinLists, HoldWhatTouchesInTheOrderOfTheTable) {
+/// One box at a time, as programs of one lane do it, and sixteen.
+class BinLists : public testing::TestWithParam<int> {
+protected:
+    void SetUp() override {
+        if (lanes_to_try({GetParam()}).empty()) GTEST_SKIP() << "not among WRINKLE_TEST_LANES";
+    }
+};
+
+TEST_P(BinLists, HoldWhatTouchesInTheOrderOfTheTable) {
     const BinSetup setup;
-    const Lists got = lists_of(setup, 100'000);
+    const Lists got = lists_of(setup, 100'000, GetParam());
     Box around = setup.children[0];
     for (const Box& child : setup.children) {
         around.low = {std::min(around.low.x, child.low.x), std::min(around.low.y, child.low.y),
@@ -156,12 +164,12 @@ TEST(BinLists, HoldWhatTouchesInTheOrderOfTheTable) {
     EXPECT_GT(listed, 20u);
 }
 
-TEST(BinLists, TakeTheirParentsWhereThereIsNoRoom) {
+TEST_P(BinLists, TakeTheirParentsWhereThereIsNoRoom) {
     const BinSetup setup;
-    const Lists plenty = lists_of(setup, 100'000), none = lists_of(setup, kDecals);
+    const Lists plenty = lists_of(setup, 100'000, GetParam()), none = lists_of(setup, kDecals, GetParam());
     EXPECT_FALSE(none.super.own);
     EXPECT_EQ(none.super.entries, everything());
-    const Lists some = lists_of(setup, kDecals + static_cast<unsigned>(plenty.super.entries.size()));
+    const Lists some = lists_of(setup, kDecals + static_cast<unsigned>(plenty.super.entries.size()), GetParam());
     EXPECT_TRUE(some.super.own);
     EXPECT_EQ(some.super.entries, plenty.super.entries);
     for (std::size_t k = 0; k < 16; ++k) {
@@ -171,6 +179,8 @@ TEST(BinLists, TakeTheirParentsWhereThereIsNoRoom) {
         EXPECT_EQ(some.children[k].entries, plenty.super.entries);
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Lanes, BinLists, testing::Values(1, 16), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace wrinkle::test

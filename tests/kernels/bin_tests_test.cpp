@@ -29,7 +29,7 @@ TEST(BinTests, EveryPixelLiesInTheTileOfItsNumber) {
     for (int y = 0; y < 300; y += 3)
         for (int x = 0; x < 768; x += 5)
             columns["x"].push_back(static_cast<float>(x)), columns["y"].push_back(static_cast<float>(y));
-    for (const int lanes : {1, 8}) {
+    for (const int lanes : lanes_to_try({1, 8})) {
         const Results got = run_kernel(f, columns, {lanes, false});
         for (std::size_t i = 0; i < columns["x"].size(); ++i) {
             EXPECT_EQ(got[0][i], std::floor(columns["x"][i] / 16) * 16) << columns["x"][i] << ", " << columns["y"][i];
@@ -83,16 +83,16 @@ TEST(BinTests, ABoxHoldsTheValidPointsAndTheirSlack) {
 }
 
 /// For each decal, which of the 16 boxes the device says that it may touch.
-std::vector<unsigned> touches(const std::vector<float>& decals, const std::vector<float>& bounds, std::size_t count) {
+std::vector<unsigned> touches(const std::vector<float>& decals, const std::vector<float>& bounds, std::size_t count,
+                              int lanes) {
     const Device& device = test_device();
     const BuiltProgram built = build_program(
         device,
         "#include \"wrinkle.clh\"\n"
         "kernel void touches(global const float *decals, global const float *bounds, global uint *out)\n{\n"
         "    uint i = get_global_id(0);\n"
-        "    out[i] = wr_touches(decals + WR_BOX_NUMBERS * i, wr_boxes_of(wr_load_bounds(bounds + 96 * i, 16, "
-        "0)));\n}\n",
-        {1, false});
+        "    out[i] = wr_touches16(decals + WR_BOX_NUMBERS * i, bounds + 96 * i, 16, 0);\n}\n",
+        {lanes, false});
     std::vector<unsigned> out(count);
     const auto input = [&](const std::vector<float>& v) {
         return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, v.size() * sizeof(float),
@@ -142,7 +142,8 @@ TEST(BinTests, ADecalIsNeverMissedAndSeldomFoundForNothing) {
     }
     const Camera upright = Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1, 1);
     const BinBounds decals = bin_bounds(records, upright);
-    const std::vector<unsigned> got = touches(decals.boxes, bounds, count);
+    std::vector<std::vector<unsigned>> got;  // one box at a time, and sixteen
+    for (const int lanes : lanes_to_try({1, 16})) got.push_back(touches(decals.boxes, bounds, count, lanes));
     std::size_t touching = 0, listed = 0, missed = 0;
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t k = 0; k < 16; ++k) {
@@ -153,12 +154,14 @@ TEST(BinTests, ADecalIsNeverMissedAndSeldomFoundForNothing) {
                 const V p{random.uniform(low.x, high.x), random.uniform(low.y, high.y), random.uniform(low.z, high.z)};
                 found = reference::project(rows[i], boxes[i], turned(p)).weight > 0;
             }
-            touching += found ? 1 : 0;
-            listed += got[i] >> k & 1;
-            missed += found && (got[i] >> k & 1) == 0 ? 1 : 0;
+            for (const std::vector<unsigned>& touched : got) {
+                touching += found ? 1 : 0;
+                listed += touched[i] >> k & 1;
+                missed += found && (touched[i] >> k & 1) == 0 ? 1 : 0;
+            }
         }
     }
-    fmt::print("{} of {} boxes touch, {} are listed\n", touching, 16 * count, listed);
+    fmt::print("{} of {} boxes touch, {} are listed\n", touching, 16 * count * got.size(), listed);
     EXPECT_EQ(missed, 0u);
     EXPECT_GT(touching, 300u);
     EXPECT_LT(listed, 2 * touching);

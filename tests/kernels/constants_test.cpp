@@ -10,7 +10,7 @@ namespace {
 /// Evaluates expressions of a column v.
 Results over(const std::vector<float>& v, const std::vector<std::string>& outputs, const std::string& body = {},
              const ColumnData& data = {}) {
-    return run_kernel({body, outputs}, {{"v", v}}, {8, false}, data);
+    return run_kernel({body, outputs}, {{"v", v}}, {lanes_to_try({8, 1}).front(), false}, data);
 }
 
 using Numbers = std::vector<double>;

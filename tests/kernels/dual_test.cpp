@@ -144,7 +144,7 @@ TEST(Dual, EdgesAreFinite) {
         {"wr_clamp(zero, 0, 1)", {0, 1}},
     };
     for (const auto& [text, want] : edges)
-        for (const int lanes : {1, 4, 16}) {
+        for (const int lanes : lanes_to_try({1, 4, 16})) {
             const std::string body = "wr_dual zero = wr_variable(v, 0), one = wr_variable(v + 1, 0), f = ";
             const Results r =
                 run_kernel({body + text + ";", {"f.value", "f.gradient.x"}}, {{"v", {0, 0}}}, {lanes, false});

@@ -8,7 +8,6 @@
 namespace wrinkle::test {
 namespace {
 
-constexpr int all_lanes[] = {1, 4, 8, 16};
 constexpr float inf = INFINITY, nan = NAN, tiny = 1e-45f, huge = 3.4e38f;
 
 TEST(GBuffer, ValidityIsDecidedFromBits) {
@@ -23,8 +22,8 @@ TEST(GBuffer, ValidityIsDecidedFromBits) {
             normal.push_back(std::isfinite(a) && std::isfinite(b) && !(gone(a) && gone(b)));
         }
     const ColumnData planes = float_planes({columns["a"], columns["b"]});
-    for (const bool fp64 : {false, true})
-        for (const int lanes : all_lanes) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel(
                 {"wr_floats fa = wr_load_floats(texels, at), fb = wr_load_floats(texels + stride, at), zero = 0;",
                  {"truth(wr_valid_depth(fa))", "truth(wr_valid_normal(fa, fb, zero))",
@@ -51,8 +50,8 @@ TEST(GBuffer, PixelsOfAWorkItem) {
         const Columns columns{{"nothing", std::vector<float>(pixels)}};
         ColumnData data;
         data.constants = {static_cast<double>(width)};
-        for (const bool fp64 : {false, true})
-            for (const int lanes : all_lanes) {
+        for (const bool fp64 : precisions_to_try())
+            for (const int lanes : lanes_to_try()) {
                 const Results r = run_kernel(
                     {"wr_pixels px = wr_pixels_of(get_global_id(0), 50, 20, (uint)constants[0]);",
                      {"px.x", "px.y", "(wr_real)((WR_SCALAR)(px.in - at))", "(wr_real)((WR_SCALAR)(px.out - at))"}},
@@ -192,7 +191,7 @@ TEST(GBuffer, PositionsInPairs) {
     for (const char* name : {"a", "b", "c"})
         for (const char* part : {"high", "low"})
             for (const char axis : {'x', 'y', 'z'}) kernel.outputs.push_back(fmt::format("{}.{}.{}", name, axis, part));
-    for (const int lanes : all_lanes) {
+    for (const int lanes : lanes_to_try()) {
         const Results got = run_kernel(kernel, columns, {lanes, false}, data);
         for (std::size_t i = 0; i < want.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k) {

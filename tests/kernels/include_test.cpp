@@ -62,7 +62,7 @@ TEST(KernelFiles, BuildFromTheFolderOnTheDevice) {
         std::string(kOwnNames) +
         "#include \"wrinkle.clh\"\n#include \"surface/gbuffer.clh\"\n"
         "kernel void own(global float *out) { vec3 v = 1; out[0] = v.x + wr_lane(wr_zero3().x, 0); }\n";
-    for (const int lanes : {1, 16}) {
+    for (const int lanes : lanes_to_try({1, 16})) {
         cl::Program program(device.context, text);
         const std::string flags =
             fmt::format("-cl-std=CL1.2 -D WR_LANES={} -I {}", lanes, WRINKLE_SOURCE_DIR "/kernels");

@@ -6,9 +6,6 @@
 namespace wrinkle::test {
 namespace {
 
-constexpr int all_lanes[] = {1, 4, 8, 16};
-constexpr bool precisions[] = {false, true};
-
 std::vector<float> count(std::size_t n) {
     std::vector<float> v;
     for (std::size_t i = 0; i < n; ++i) v.push_back(static_cast<float>(i));
@@ -17,8 +14,8 @@ std::vector<float> count(std::size_t n) {
 
 TEST(Lanes, LoadAndStoreKeepTheOrder) {
     const Columns columns{{"v", count(100)}};
-    for (const bool fp64 : precisions)
-        for (const int lanes : all_lanes) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel({"", {"v", "wr_lane_number()"}}, columns, {lanes, fp64});
             for (std::size_t i = 0; i < 100; ++i) {
                 EXPECT_EQ(r[0][i], static_cast<double>(i));
@@ -32,8 +29,8 @@ TEST(Lanes, LoadNearStaysInside) {
     const std::size_t pixels = 37;
     std::vector<float> v = count(pixels);
     for (float& a : v) ++a;
-    for (const bool fp64 : precisions)
-        for (const int lanes : all_lanes)
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try())
             for (const int step : {-40, -17, -1, 0, 1, 5, 40}) {
                 ColumnData data = float_planes({v});
                 data.constants = {static_cast<double>(step), static_cast<double>(pixels)};
@@ -51,8 +48,8 @@ TEST(Lanes, LoadNearStaysInside) {
 
 TEST(Lanes, FloorOfAnyNumber) {
     const std::vector<float> v{0, -0.0f, 0.5f, -0.5f, 1, -1, -1e-45f, 1e-45f, 8388607.5f, -8388607.5f, 3e38f, -3e38f};
-    for (const bool fp64 : precisions)
-        for (const int lanes : all_lanes) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel({"", {"wr_floor(v)"}}, {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) EXPECT_EQ(r[0][i], std::floor(double{v[i]})) << v[i];
         }
@@ -61,8 +58,8 @@ TEST(Lanes, FloorOfAnyNumber) {
 TEST(Lanes, Log2) {
     std::vector<float> v{1, 2, 4, 1.4142135f, 1.4142137f, 1e30f};
     for (int i = 0; i < 500; ++i) v.push_back(static_cast<float>(std::exp2(i * 0.2)));
-    for (const bool fp64 : precisions)
-        for (const int lanes : all_lanes) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel({"", {"wr_log2(v)"}}, {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
                 const double want = std::log2(double{v[i]});  // large results are compared by their own ulp
@@ -74,8 +71,8 @@ TEST(Lanes, Log2) {
 TEST(Lanes, AnyIsTrueWhereOneLaneIs) {
     std::vector<float> v(64);
     v[5] = v[48] = 1;
-    for (const bool fp64 : precisions)
-        for (const int lanes : all_lanes) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel({"int found = wr_any(v > 0) ? 1 : 0;", {"(wr_real)((WR_SCALAR)(found))"}},
                                          {{"v", v}}, {lanes, fp64});
             for (std::size_t i = 0; i < v.size(); ++i) {
@@ -88,8 +85,8 @@ TEST(Lanes, AnyIsTrueWhereOneLaneIs) {
 /// True is 1 on one lane and -1 on several. Masks of both kinds select, combine and negate alike.
 TEST(Lanes, MasksSelectCombineAndNegate) {
     const Columns columns{{"a", {0, 1, 2, 3}}, {"b", {3, 2, 1, 0}}};
-    for (const bool fp64 : precisions)
-        for (const int lanes : all_lanes) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel({"wr_mask less = a < b, one = a == 1;",
                                           {"truth(less)", "truth(less & one)", "truth(less | (a == 3))", "truth(!less)",
                                            "truth(wr_to_mask(wr_bits(wr_load_floats(texels, at)) == 0))"}},

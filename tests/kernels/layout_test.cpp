@@ -63,7 +63,7 @@ void check_layout(const std::string& type, const std::vector<Member>& members, s
     std::iota(data.constants.begin(), data.constants.end(), 1);
     data.records = data.constants;
     for (const char* memory : {"constant", "global"})
-        for (const bool fp64 : {false, true}) {
+        for (const bool fp64 : precisions_to_try()) {
             ColumnKernel f;
             f.body = fmt::format("{0} const {1} *s = ({0} const {1} *){2};", memory, type,
                                  std::string(memory) == "constant" ? "constants" : "records");

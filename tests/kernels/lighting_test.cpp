@@ -60,7 +60,7 @@ TEST(Lighting, IsFiniteAtALightAndOppositeToTheView) {
                           {"v.z", {z, -z, z, -z, -z}},
                           {"roughness", {0, 0, 1, 0, 0}}};
     const ColumnData data = cases::lighting_cases().data;
-    for (const int lanes : {1, 4, 8, 16}) {
+    for (const int lanes : lanes_to_try()) {
         const Results r = run_kernel({light_it, xyz("lit")}, columns, {lanes, false}, data);
         for (const auto& channel : r)
             for (std::size_t i = 0; i < channel.size(); ++i)

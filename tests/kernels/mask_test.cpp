@@ -8,11 +8,9 @@
 namespace wrinkle::test {
 namespace {
 
-constexpr int all_lanes[] = {1, 4, 8, 16};
-
 TEST(Mask, ObjectIndex) {
     const Columns columns{{"object", {3, 0, -3, 3.5f, NAN, INFINITY, 3, 16777216.0f}}};
-    for (const int lanes : all_lanes) {
+    for (const int lanes : lanes_to_try()) {
         const Results r = run_kernel({"", {"wr_mask_object(object, 3)", "wr_mask_object(object, 16777216)"}}, columns,
                                      {lanes, false});
         EXPECT_EQ(r[0], (std::vector<double>{1, 0, 0, 0, 0, 0, 1, 0})) << lanes << " lanes";
@@ -38,7 +36,7 @@ TEST(Mask, CryptomatteComparesBits) {
     std::vector<std::string> outputs;
     for (const std::uint32_t wanted : ids)
         outputs.push_back(fmt::format("wr_mask_cryptomatte(wr_load_floats(in_id, at), coverage, {}u)", wanted));
-    for (const int lanes : all_lanes) {
+    for (const int lanes : lanes_to_try()) {
         const Results r = run_kernel({"", outputs}, columns, {lanes, false});
         for (std::size_t k = 0; k < std::size(ids); ++k)
             for (std::size_t i = 0; i < std::size(ids); ++i)
@@ -56,7 +54,7 @@ TEST(Mask, OnlyTheObjectInFrontIsBumped) {
     const auto call = [](int invert) {
         return fmt::format("wr_mask_front(wr_load_floats(in_front, at), named, covered, {})", invert);
     };
-    for (const int lanes : all_lanes) {
+    for (const int lanes : lanes_to_try()) {
         const Results r = run_kernel({"", {call(0), call(1)}}, columns, {lanes, false});
         EXPECT_EQ(r[0], (std::vector<double>{0.25, 1, 0, 0, 0, 0.99f, 0, 0})) << lanes << " lanes";
         EXPECT_EQ(r[1], (std::vector<double>{1, 1, 0.75, 1, 1, 1, 0.01f, 0})) << lanes << " lanes";
@@ -65,8 +63,8 @@ TEST(Mask, OnlyTheObjectInFrontIsBumped) {
 
 TEST(Mask, ChannelIsClampedAndNanIsNothing) {
     const Columns columns{{"value", {-1, 0, 0.25f, 1, 7, NAN, INFINITY, -INFINITY, -0.0f}}};
-    for (const bool fp64 : {false, true})
-        for (const int lanes : all_lanes)
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try())
             EXPECT_EQ(run_kernel({"", {"wr_mask_channel(value)"}}, columns, {lanes, fp64})[0],
                       (std::vector<double>{0, 0, 0.25, 1, 1, 0, 1, 0, 0}))
                 << lanes << " lanes";

@@ -48,7 +48,7 @@ TEST(Lattice, PairsKeepTheDigitsOfFarPoints) {
     ColumnKernel kernel{"wr_lattice_point point = wr_lattice_at(wr_pairs(p, rest), constants, constants + 4);",
                         xyz("point.cell")};
     for (const std::string& part : xyz("point.part")) kernel.outputs.push_back(part);
-    for (const int lanes : {1, 4, 8, 16}) {  // float only: in double, constants are not split into pairs
+    for (const int lanes : lanes_to_try()) {  // float only: in double, constants are not split into pairs
         const Results got = run_kernel(kernel, c.inputs, {lanes, false}, c.data);
         for (std::size_t row = 0; row < c.size(); ++row) {
             const V at = cases::value_at(got, 0, 3, row) + cases::value_at(got, 3, 3, row);

@@ -65,7 +65,7 @@ TEST(Pair, ConstantsOfTheHost) {
     data.constants = {high, third - high};
     data.constants_per_row = 0;
     const Columns columns{{"one", {1, 1, 1}}};
-    for (const int lanes : {1, 4, 8, 16}) {
+    for (const int lanes : lanes_to_try()) {
         const Results r = run_kernel({"wr_pair p = wr_constant_pair(constants[0], constants[1]);", {"p.high", "p.low"}},
                                      columns, {lanes, false}, data);
         EXPECT_NEAR(r[0][1] + r[1][1], third, 1e-15);

@@ -12,7 +12,7 @@ namespace {
 /// In frames of any size that blocks fit into, every pixel is evaluated, with the right coordinates and place in
 /// memory.
 TEST(PixelBlock, BlocksCoverTheFrame) {
-    for (const int lanes : {8, 16})
+    for (const int lanes : lanes_to_try({8, 16}))
         for (const int width : {4, 5, 7, 16, 31})
             for (const int rows : {lanes / 4, lanes / 4 + 1, 11}) {
                 const int across = (width + 3) / 4, down = (rows + lanes / 4 - 1) / (lanes / 4);
@@ -23,7 +23,7 @@ TEST(PixelBlock, BlocksCoverTheFrame) {
                 ColumnData data;
                 data.texels = plane;
                 data.constants = {static_cast<double>(width), static_cast<double>(rows)};
-                for (const bool fp64 : {false, true}) {
+                for (const bool fp64 : precisions_to_try()) {
                     const Results r = run_kernel(
                         {"wr_pixel_block b = wr_pixel_block_of(get_global_id(0), 50, 20, (uint)constants[0], "
                          "(uint)constants[1]);",
@@ -48,13 +48,13 @@ TEST(PixelBlock, BlocksCoverTheFrame) {
 /// Where blocks do not fit, pixels are those of wr_pixels_of, each once.
 TEST(PixelBlock, RowsWhereBlocksDoNotFit) {
     constexpr std::size_t width = 3, pixels = width * 32;
-    std::vector<float> plane(50 + pixels);
+    std::vector<float> plane(50 + 256);  // work-items are padded to 256 pixels, and here none of them is guarded
     for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = static_cast<float>(i);
     const Columns columns{{"nothing", std::vector<float>(pixels)}};
     ColumnData data;
     data.texels = plane;
-    for (const bool fp64 : {false, true})
-        for (const int lanes : {1, 4, 8, 16}) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r = run_kernel({"wr_pixel_block b = wr_pixel_block_of(get_global_id(0), 50, 20, 3, 0);",
                                           {"b.x", "b.y", "wr_load(texels, b.in)", "wr_load(texels, b.out)"}},
                                          columns, {lanes, fp64}, data);

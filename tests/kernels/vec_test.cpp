@@ -96,8 +96,8 @@ TEST(Vec, PrescaleIsAPowerOfTwoThatBringsSizesNearOne) {
     Columns columns;
     for (int e = -126; e < 127; ++e)
         for (const float m : {1.0f, 1.5f, 1.9999999f}) columns["size"].push_back(std::ldexp(m, e));
-    for (const bool fp64 : {false, true})
-        for (const int lanes : {1, 4, 8, 16}) {
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try()) {
             const Results r =
                 run_kernel({"", {"wr_prescale(size)", "size * wr_prescale(size)"}}, columns, {lanes, fp64});
             for (std::size_t i = 0; i < r[0].size(); ++i) {
@@ -116,15 +116,15 @@ TEST(Vec, SoundTellsFiniteVectors) {
     const Columns columns{{"v.x", {0, 1e38f, inf, 0, 0, nan, 0, 3.4e38f}},
                           {"v.y", {0, -1e38f, 0, -inf, 0, 0, nan, 3.4e38f}},
                           {"v.z", {0, 1e-45f, 0, 0, inf, 0, 0, 3.4e38f}}};
-    for (const bool fp64 : {false, true})
-        for (const int lanes : {1, 4, 8, 16})
+    for (const bool fp64 : precisions_to_try())
+        for (const int lanes : lanes_to_try())
             EXPECT_EQ(run_kernel({"", {"truth(wr_sound(v))"}}, columns, {lanes, fp64})[0],
                       (std::vector<double>{1, 1, 0, 0, 0, 0, 0, 1}));
 }
 
 TEST(Vec, RampIsClamped) {
     const Columns columns{{"v", {-5, 0, 1, 1.5f, 2, 2.5f, 3, 99}}};
-    for (const int lanes : {1, 4, 8, 16})
+    for (const int lanes : lanes_to_try())
         EXPECT_EQ(run_kernel({"", {"wr_ramp(v, (wr_real)(1), (wr_real)(3))"}}, columns, {lanes, false})[0],
                   (std::vector<double>{0, 0, 0, 0.25, 0.5, 0.75, 1, 1}));
 }

@@ -50,7 +50,9 @@ Scene with_own_names(Scene scene) {
     return scene;
 }
 
-Pixels evaluate_area(const HostFrame& frame, const Scene& scene, const PassOptions& options) {
+Pixels evaluate_area(const HostFrame& frame, const Scene& scene, PassOptions options) {
+    if (const std::vector<int> lanes = lanes_to_try(); options.lanes == 0 && lanes.size() == 1)
+        options.lanes = lanes.front();
     Pass pass = evaluate(device(), scene, frame.frame, options);
     return run(pass, frame);
 }

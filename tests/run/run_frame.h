@@ -79,7 +79,8 @@ std::map<std::string, std::vector<T>> run(Pass& pass, const HostFrame& frame) {
     return out;
 }
 
-Pixels evaluate_area(const HostFrame& frame, const Scene& scene, const PassOptions& options = {});
+/// On the lanes that WRINKLE_TEST_LANES names, if it names one and `options` none.
+Pixels evaluate_area(const HostFrame& frame, const Scene& scene, PassOptions options = {});
 
 /// With one point a pixel, as the references have.
 Pixels evaluate_on(const HostFrame& frame, Scene scene, const PassOptions& options = {});
