@@ -29,7 +29,8 @@ void measure_cores(const Device& device, Size size, Run& run);
 /// default. Group "files". Without oiiotool it says so and measures nothing.
 void measure_files(Size size, Run& run);
 
-/// Resolve from normals and gradients stored as float, half, or octahedral integers. Group "storage".
+/// Resolve from normals and gradients stored as floats and in fewer bytes: alone, to floats, and as a pass, to normals
+/// stored alike. Errors are against what was to be stored. Group "storage".
 void measure_storage(const Device& device, Size size, Run& run);
 
 /// A scene as it is, and with one saving left out at a time: with the layers of other scenes compiled in and skipped by

@@ -1,16 +1,24 @@
-#include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "bench_kernel.h"
 #include "contests.h"
+#include "frame.h"
+#include "plan/stored_planes.h"
+#include "run/pass_impl.h"
+#include "tests/reference/stored.h"
 
 namespace wrinkle::bench {
 
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = reference::Vec<double>;
+using enum PlaneEncoding;
+
+const std::vector<std::string> kNormal{"normal.x", "normal.y", "normal.z"},
+    kGradient{"channel:g.x", "channel:g.y", "channel:g.z"};
 
 /// The nearest IEEE half of a number of at most 65504.
 std::uint16_t half_of(float v) {
@@ -23,93 +31,231 @@ std::uint16_t half_of(float v) {
     return static_cast<std::uint16_t>(sign | (magnitude + 0xfffu + (magnitude >> 13 & 1u)) >> 13);
 }
 
-/// Octahedral coordinates of a unit vector as 16-bit integers [Cigolle et al. 2014].
-std::array<std::int16_t, 2> octahedral(const Vector& n) {
-    const double sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
-    double u = n[0] / sum, v = n[1] / sum;
-    if (n[2] < 0) {
-        const double folded = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
-        v = (1 - std::abs(u)) * (v < 0 ? -1 : 1), u = folded;
+std::uint32_t bits_of(PlaneEncoding encoding, float v) {
+    return encoding == half ? half_of(v) : std::bit_cast<std::uint32_t>(v);
+}
+
+Vector vector_at(const BenchFrame& frame, const std::string& role, std::size_t i) {
+    return {frame.planes.at(role + "x")[i], frame.planes.at(role + "y")[i], frame.planes.at(role + "z")[i]};
+}
+
+/// A way to store the planes of a frame.
+struct Way {
+    const char* name;
+    PlaneFormats in, out;
+};
+
+PlaneFormats united(std::initializer_list<PlaneFormats> all) {
+    PlaneFormats out;
+    for (const PlaneFormats& each : all) out.insert(each.begin(), each.end());
+    return out;
+}
+
+PlaneFormats planar(PlaneEncoding encoding, const std::vector<std::string>& planes) {
+    PlaneFormats out;
+    for (const std::string& plane : planes) out[plane] = {.encoding = encoding};
+    return out;
+}
+
+std::vector<Way> ways() {
+    std::vector<std::string> all = kNormal, pixels = kNormal, gradients = kGradient, normals = kNormal;
+    all.insert(all.end(), kGradient.begin(), kGradient.end()), all.push_back("depth");
+    pixels.push_back("depth"), gradients.emplace_back(), normals.emplace_back();
+    return {{"float", {}, {}},
+            {"half", planar(half, all), planar(half, kNormal)},
+            {"octahedral normals",
+             united({interleaved("normal", octahedral16, kNormal), planar(half, kGradient), planar(half, {"depth"})}),
+             interleaved("normal", octahedral16, kNormal)},
+            {"RGBA16F", united({interleaved("pixels", half, pixels), interleaved("gradients", half, gradients)}),
+             interleaved("normals", half, normals)}};
+}
+
+/// A pass that does nothing but resolve, with its planes on the device in the formats of a way.
+struct Job {
+    Pass pass;
+    PlaneBuffers in, out;
+
+    Job(const Device& device, const Scene& scene, const BenchFrame& frame, const Way& way)
+        : pass(evaluate(device, scene, stored(frame.frame, way), options(way))) {
+        const Plan& plan = pass.impl().plan;
+        const auto bytes = [](const PlaneFormats& formats) {
+            return [&formats](const std::string& name) { return std::size_t{pixel_bytes(name, formats)}; };
+        };
+        in = PlaneBuffers(device, pass.inputs(), frame.pixels(), bytes(plan.formats));
+        out = PlaneBuffers(device, pass.outputs(), frame.pixels(), bytes(plan.output_formats));
+        for (const std::string& name : pass.inputs()) {
+            auto* memory = in.map<std::byte>(name, CL_MAP_WRITE);
+            std::memset(memory, 0, frame.pixels() * pixel_bytes(name, plan.formats));
+            for (const std::string& plane : plan.inputs) {
+                const auto found = plan.formats.find(plane);
+                const PlaneFormat format =
+                    found == plan.formats.end() ? PlaneFormat{.stride = 4, .memory = plane} : found->second;
+                if (format.memory == name) pack(memory, format, frame, plane);
+            }
+        }
+        in.unmap();
     }
-    const auto rounded = [](double t) { return static_cast<std::int16_t>(std::lround(t * 32767)); };
-    return {rounded(u), rounded(v)};
+
+    void run() { pass.enqueue(in.planes(), out.planes()).wait(); }
+
+private:
+    static PassOptions options(const Way& way) {
+        PassOptions out;
+        out.output_formats = way.out;
+        return out;
+    }
+
+    static Frame stored(Frame frame, const Way& way) {
+        frame.formats = way.in;
+        return frame;
+    }
+
+    static void pack(std::byte* memory, const PlaneFormat& format, const BenchFrame& frame, const std::string& plane) {
+        const std::uint32_t bytes = bytes_of(format.encoding);
+        const std::vector<float>& values = frame.planes.at(plane);
+        for (std::size_t i = 0; i < frame.pixels(); ++i) {
+            const std::uint32_t bits = format.encoding == octahedral16
+                                           ? reference::encoded_normal(octahedral16, vector_at(frame, "normal.", i))
+                                           : bits_of(format.encoding, values[i]);
+            std::memcpy(memory + i * format.stride + format.offset, &bits, bytes);
+        }
+    }
+};
+
+/// The number that a memory holds of a plane.
+double number_at(const std::byte* memory, const PlaneFormat& format, std::size_t i) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, memory + i * format.stride + format.offset, bytes_of(format.encoding));
+    return reference::decoded(format.encoding, bits);
 }
 
-template <class T>
-cl::Buffer buffer(const Device& device, std::vector<T>& values) {
-    return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data()};
+/// The same of three planes, of which `x` is the first.
+class StoredVectors {
+public:
+    StoredVectors(PlaneBuffers& buffers, const PlaneFormats& formats, std::string x) {
+        for (const char axis : {'x', 'y', 'z'}) {
+            x.back() = axis;
+            const auto found = formats.find(x);
+            formats_.push_back(found == formats.end() ? PlaneFormat{.stride = 4, .memory = x} : found->second);
+            memory_.push_back(buffers.map<const std::byte>(formats_.back().memory, CL_MAP_READ));
+        }
+    }
+
+    Vector at(std::size_t i) const {
+        if (formats_[0].encoding == octahedral16) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, memory_[0] + i * formats_[0].stride, sizeof bits);
+            return reference::decoded_normal(octahedral16, bits);
+        }
+        return {number_at(memory_[0], formats_[0], i), number_at(memory_[1], formats_[1], i),
+                number_at(memory_[2], formats_[2], i)};
+    }
+
+private:
+    std::vector<PlaneFormat> formats_;
+    std::vector<const std::byte*> memory_;
+};
+
+/// The pixels at which errors are taken.
+std::vector<std::size_t> sample_of(const BenchFrame& frame) {
+    std::vector<std::size_t> pixels;
+    const Size size = frame.frame.size;
+    const auto rays = *pinhole_rays(frame.frame.camera, size);
+    for (std::size_t i = 0; i < frame.pixels(); i += 997) {
+        const double x = static_cast<double>(i % size.width) + 0.5, y = static_cast<double>(i / size.width) + 0.5;
+        const auto along = [&](std::size_t axis) { return rays.d0[axis] + x * rays.dx[axis] + y * rays.dy[axis]; };
+        const Vector n = vector_at(frame, "normal.", i), ray{along(0), along(1), along(2)};
+        const float depth = frame.planes.at("depth")[i];
+        // Normals that face away are reflected first; some that nearly do, too, once they are rounded.
+        if (depth > 0 && depth < 1e9F && dot(n, ray) < -0.02 * length(n) * length(ray)) pixels.push_back(i);
+    }
+    return pixels;
 }
 
-double degrees(const Vector& a, const Vector& b) {
-    double cross = 0, dot = 0;
+/// The demo's depth and normals, of unit length, with random gradients.
+BenchFrame resolve_frame(Size size) {
+    BenchFrame frame = Resampler(load_scene(WRINKLE_SOURCE_DIR "/data/scenes/courtyard.toml")).frame(size);
+    constexpr std::uint32_t kSeed = 14;
+    std::mt19937 random(kSeed);
+    std::normal_distribution<float> part(0, 0.3F);
+    std::vector<float> parts(65537);  // which repeat
+    for (float& each : parts) each = part(random);
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        cross += std::pow(a[i] * b[j] - a[j] * b[i], 2), dot += a[k] * b[k];
+        std::vector<float>& plane = frame.planes[kGradient[k]];
+        for (std::size_t i = 0; i < frame.pixels(); ++i) plane.push_back(parts[(3 * i + k) % parts.size()]);
+        frame.frame.planes.insert(kGradient[k]);
     }
-    return std::atan2(std::sqrt(cross), dot) * 57.29577951308232;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+        const Vector n = vector_at(frame, "normal.", i);
+        if (length(n) == 0) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            frame.planes.at(kNormal[k])[i] = static_cast<float>(frame.planes.at(kNormal[k])[i] / length(n));
+    }
+    return frame;
+}
+
+/// Records a contender, by its normals in `job`. `tangent`: what it resolved is the part of gradients that is tangent
+/// to the normal.
+void record(Run& run, const char* name, const Contender& contender, int lanes, const BenchFrame& frame,
+            const std::vector<std::size_t>& pixels, Job& job, bool tangent, double bytes) {
+    const Plan& plan = job.pass.impl().plan;
+    const StoredVectors out(job.out, plan.output_formats, "normal.x");
+    std::vector<double> errors;
+    for (const std::size_t i : pixels) {
+        const Vector n = normalize(vector_at(frame, "normal.", i));
+        Vector g = vector_at(frame, "channel:g.", i);
+        if (tangent) g = g - n * dot(n, g);
+        errors.push_back(angle_degrees(out.at(i), normalize(n - g)));
+    }
+    Measurement m = measured("storage", name, contender, lanes, frame.pixels());
+    m.bytes = bytes;
+    m.error = statistics(std::move(errors));
+    const std::string& memory = job.pass.outputs().front();
+    m.hash =
+        hash_of(job.out.map<std::byte>(memory, CL_MAP_READ), frame.pixels() * pixel_bytes(memory, plan.output_formats));
+    job.out.unmap();
+    run.measurements.push_back(m);
 }
 
 }  // namespace
 
 void measure_storage(const Device& device, Size size, Run& run) {
-    const std::size_t pixels = padded(std::size_t{size.width} * size.height);
-    constexpr std::uint32_t kSeed = 14;
-    std::mt19937 random(kSeed);
-    std::normal_distribution<double> normal;
-    constexpr std::size_t kPeriod = 65537;  // number of different pixels, which then repeat
-    std::vector<Vector> n(kPeriod), g(kPeriod);
-    for (std::size_t i = 0; i < kPeriod; ++i) {
-        for (double& part : n[i]) part = normal(random);
-        for (double& part : g[i]) part = 0.3 * normal(random);
-        const double length = std::hypot(n[i][0], n[i][1], n[i][2]);
-        for (double& part : n[i]) part /= length;
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].name = "gradients", scene.layers[0].bump = GradientLayer{.channels = {"g.x", "g.y", "g.z"}};
+    scene.filter.taps = 1;
+    const BenchFrame frame = resolve_frame(size);
+    const std::vector<std::size_t> pixels = sample_of(frame);
+    const std::vector<Way> all = ways();
+    std::vector<Job> jobs;
+    for (const Way& way : all) jobs.emplace_back(device, scene, frame, way);
+
+    const BenchKernels stored(device, "storage.cl"), floats(device, "memory.cl");
+    const char* const kernels[] = {"wr_resolve_only", "wr_resolve_halves", "wr_resolve_octahedral",
+                                   "wr_resolve_pixels"};
+    std::vector<Contender> alone, passes;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        std::vector<cl::Buffer> arguments;
+        const Plan& plan = jobs[k].pass.impl().plan;
+        for (const std::string& name : memories_of(kNormal, plan.formats))
+            arguments.push_back(jobs[k].in.planes().at(name));
+        for (const std::string& name : memories_of(kGradient, plan.formats))
+            arguments.push_back(jobs[k].in.planes().at(name));
+        for (const std::string& name : jobs[0].pass.outputs()) arguments.push_back(jobs[0].out.planes().at(name));
+        alone.push_back({all[k].name, (k == 0 ? floats : stored).launcher(kernels[k], arguments, frame.pixels())});
+        passes.push_back({all[k].name, [&jobs, k] { jobs[k].run(); }});
     }
-    std::vector<cl::Buffer> floats, halves, shorts;
-    for (std::size_t k = 0; k < 6; ++k) {
-        std::vector<float> full(pixels);
-        std::vector<std::uint16_t> narrow(pixels);
-        std::vector<std::int16_t> folded(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) {
-            full[i] = static_cast<float>(k < 3 ? n[i % kPeriod][k] : g[i % kPeriod][k - 3]);
-            narrow[i] = half_of(full[i]);
-            if (k < 2) folded[i] = octahedral(n[i % kPeriod])[k];
-        }
-        floats.push_back(buffer(device, full)), halves.push_back(buffer(device, narrow));
-        if (k < 2) shorts.push_back(buffer(device, folded));
+    race(alone, run.rounds);
+    constexpr double kBytes[] = {36, 24, 22, 28};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        alone[k].work();
+        record(run, "resolve_from", alone[k], device.info.lanes, frame, pixels, jobs[0], false, kBytes[k]);
     }
-    std::vector<cl::Buffer> out;
-    for (int k = 0; k < 3; ++k)
-        out.emplace_back(device.context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, pixels * sizeof(float));
-    const auto with_out = [&](std::vector<cl::Buffer> in) {
-        in.insert(in.end(), out.begin(), out.end());
-        return in;
-    };
-    const BenchKernels kernels(device, "storage.cl"), whole(device, "memory.cl");
-    std::vector<Contender> contenders{
-        {"float", whole.launcher("wr_resolve_only", with_out(floats), pixels)},
-        {"half", kernels.launcher("wr_from_halves", with_out(halves), pixels)},
-        {"octahedral normals",
-         kernels.launcher("wr_from_octahedral", with_out({shorts[0], shorts[1], floats[3], floats[4], floats[5]}),
-                          pixels)}};
-    race(contenders, run.rounds);
-    constexpr double kBytes[] = {36, 24, 28};
-    for (std::size_t c = 0; c < contenders.size(); ++c) {
-        contenders[c].work();
-        std::array<std::vector<float>, 3> got;
-        for (std::size_t k = 0; k < 3; ++k) {
-            got[k].resize(pixels);
-            device.queue.enqueueReadBuffer(out[k], CL_TRUE, 0, pixels * sizeof(float), got[k].data());
-        }
-        std::vector<double> errors;
-        for (std::size_t i = 0; i < kPeriod && i < pixels; ++i) {
-            const Vector want{n[i][0] - g[i][0], n[i][1] - g[i][1], n[i][2] - g[i][2]};
-            errors.push_back(degrees({got[0][i], got[1][i], got[2][i]}, want));
-        }
-        Measurement m = measured("storage", "resolve_from", contenders[c], device.info.lanes, pixels);
-        m.bytes = kBytes[c];
-        m.error = statistics(std::move(errors));
-        m.hash = hash_of(got[0].data(), pixels * sizeof(float));
-        run.measurements.push_back(m);
+    race(passes, run.rounds);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        passes[k].work();
+        record(run, "resolve_pass", passes[k], device.info.lanes, frame, pixels, jobs[k], true,
+               jobs[k].pass.bytes_per_pixel());
     }
 }
 
