@@ -182,19 +182,19 @@ int main() try {
         .planes = {"depth", "albedo.r", "albedo.g", "albedo.b", "roughness", "normal.x", "normal.y", "normal.z"},
         .formats = gbuffer,
         .device_depth = wrinkle::DeviceDepth::zero_to_one};
-    auto accumulate = wrinkle::accumulate_decals(
-        device, {&decals, 1},
-        {.size = kSize, .camera = camera, .planes = {"depth"}, .device_depth = frame.device_depth},
-        {.output_formats = wrinkle::interleaved("gradient", half,
-                                                {"volume_gradient.x", "volume_gradient.y", "volume_gradient.z", ""})});
+    wrinkle::PassOptions to_gradient, to_lit;
+    to_gradient.output_formats =
+        wrinkle::interleaved("gradient", half, {"volume_gradient.x", "volume_gradient.y", "volume_gradient.z", ""});
+    to_lit.output_formats = wrinkle::interleaved("lit", half, {"lit.r", "lit.g", "lit.b", ""});
+    const wrinkle::Frame depth_alone{
+        .size = kSize, .camera = camera, .planes = {"depth"}, .device_depth = frame.device_depth};
+    auto accumulate = wrinkle::accumulate_decals(device, {&decals, 1}, depth_alone, to_gradient);
     Memory memory{{"gbuffer0", bytes(g.albedo_roughness)}, {"gbuffer1", bytes(g.normal)}, {"depth", bytes(g.depth)}};
     memory.merge(run(accumulate, memory));
     frame.planes.insert({"channel:g.X", "channel:g.Y", "channel:g.Z"});
     frame.formats =
         joined(gbuffer, wrinkle::interleaved("gradient", half, {"channel:g.X", "channel:g.Y", "channel:g.Z", ""}));
-    auto shade =
-        wrinkle::evaluate(device, lit_scene(), frame,
-                          {.output_formats = wrinkle::interleaved("lit", half, {"lit.r", "lit.g", "lit.b", ""})});
+    auto shade = wrinkle::evaluate(device, lit_scene(), frame, to_lit);
     const Memory packed = run(shade, memory);
 
     // The same from floats.
@@ -208,9 +208,7 @@ int main() try {
         floats[c < 3 ? std::string("albedo.") + "rgb"[c] : "roughness"] = bytes(albedo);
         if (c < 3) floats[std::string("normal.") + "xyz"[c]] = bytes(normal);
     }
-    auto accumulate_floats = wrinkle::accumulate_decals(
-        device, {&decals, 1},
-        {.size = kSize, .camera = camera, .planes = {"depth"}, .device_depth = frame.device_depth});
+    auto accumulate_floats = wrinkle::accumulate_decals(device, {&decals, 1}, depth_alone);
     for (auto& [name, plane] : run(accumulate_floats, floats))
         floats[std::string("channel:g.") + static_cast<char>(name.back() - 'x' + 'X')] = plane;
     frame.formats.clear();
