@@ -71,17 +71,36 @@ constexpr const char* kAddSpread =
     "            finer = wr_add(finer, wr_v3(slope.x * slope.x, slope.x * slope.y, slope.y * slope.y));\n"
     "            products = wr_select(on, wr_fma(finer, share, products), products);\n";
 
+/// Text that lights a point on several sides of its mean slope, where slopes vary within its share of the area: four,
+/// or two at each point of several, which take turns.
+constexpr const char* kSides =
+    "            const wr_vec3 apart = wr_spread_to_light(finer);\n"
+    "            const wr_mask varied = on & (apart.x + apart.z > 0), alone = taps.count < 2;\n"
+    "            const int sides = wr_any(varied & alone) ? 4 : wr_any(varied) ? 2 : 1;\n"
+    "            const wr_real part = share / (wr_real)((WR_SCALAR)sides);\n"
+    "#pragma nounroll\n"
+    "            for (int side = 0; side < sides; ++side) {\n"
+    "            const wr_vec2 off = wr_select(alone, wr_side_of_spread(apart, side),\n"
+    "                                          wr_side_of_spread(apart, 2 * (tap & 1) + (side & 1)));\n"
+    "            wr_vec3 bent = wr_resolve(n, wr_fma(right, off.x, wr_fma(down, off.y, surface)));\n";
+/// The same where no layer tells how its slopes vary.
+constexpr const char* kOneSide =
+    "            {\n"
+    "            const wr_real part = share;\n"
+    "            wr_vec3 bent = wr_resolve(n, surface);\n";
+
 /// Text that adds the light on a point to the sums.
-std::string add_light_text(const Emitter& emitter, const char* roughness) {
-    std::string text =
-        "            wr_vec3 bent = wr_resolve(n, surface);\n"
-        "            bent = wr_select(wr_sound(bent), bent, n);\n";
+std::string add_light_text(const Emitter& emitter, bool spread) {
+    const char* const roughness =
+        spread ? "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))" : "roughness";
+    std::string text = spread ? kSides : kOneSide;
+    text += "            bent = wr_select(wr_sound(bent), bent, n);\n";
     for (const LitTerm& term : lit_terms(emitter))
         text += fmt::format(
             "            wr_vec3 {0}_here = {1};\n"
-            "            {0}_sum = wr_select(on, wr_fma({0}_here, share, {0}_sum), {0}_sum);\n",
+            "            {0}_sum = wr_select(on, wr_fma({0}_here, part, {0}_sum), {0}_sum);\n",
             term.value, term.of("centre", "bent", roughness));
-    return text;
+    return text + "            }\n";
 }
 
 }  // namespace
@@ -187,12 +206,9 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
                 fmt::format("            {0} = wr_select(on, wr_fma({1}, share, {0}), {0});\n", sum.name, sum.value);
     if (use.spread || use.lights)
         text += "            wr_vec3 surface = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
-    // Here `finer` still holds only how slopes vary within one point's share of the area, and that alone widens the
+    // Here `finer` still holds only how slopes vary within one point's share of the area, and that alone spreads the
     // light on the point; how they vary from point to point is added below.
-    if (use.lights)
-        text += add_light_text(
-            emitter,
-            use.spread ? "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))" : "roughness");
+    if (use.lights) text += add_light_text(emitter, use.spread);
     if (use.spread) text += kAddSpread;
     text += "        }\n        }\n";
     for (const Sum& sum : kSums)

@@ -84,6 +84,32 @@ TEST(Area, PointsLieOnThePlane) {
          {"weight", {"weight"}, ErrorMeasure::relative, 3e-5, 3e-5, 1e-9}});
 }
 
+TEST(Area, SidesHaveTheirCovariance) {
+    cases::Cases c{.name = "sides of a covariance"};
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        cases::Random random(seed);
+        const bool hard = seed % 2 == 0;
+        const real size = hard ? random.magnitude(-9, 9) : 1;
+        const real x = random.uniform(0, 1), y = random.uniform(0, 1), turn = random.uniform(-1, 1);
+        const V spread = cases::Random::rounded(
+            V{seed % 7 == 0 ? 0 : x * x, seed % 7 == 0 ? 0 : x * y * turn, seed % 5 == 0 ? 0 : y * y} * size);
+        c.add("sides, seed " + std::to_string(seed), hard);
+        c.in("spread", seed % 5 == 0 ? V{spread.x, 0, 0} : spread);
+        c.out("mean", V{}), c.out("spread", seed % 5 == 0 ? V{spread.x, 0, 0} : spread);
+    }
+    check(c,
+          "wr_vec3 got = wr_zero3();\n"
+          "wr_vec2 mean = wr_v2((wr_real)(0), (wr_real)(0));\n"
+          "for (int i = 0; i < 4; ++i) {\n"
+          "    wr_vec2 s = wr_side_of_spread(spread, i);\n"
+          "    mean = wr_add(mean, s);\n"
+          "    got = wr_fma(wr_v3(s.x * s.x, s.x * s.y, s.y * s.y), (wr_real)(0.25f), got);\n"
+          "}\n"
+          "wr_vec3 off = wr_v3(mean.x, mean.y, (wr_real)(0));",
+          {{"mean", xyz("off"), ErrorMeasure::absolute, 0, 0, 0},
+           {"spread", xyz("got"), ErrorMeasure::relative, 1e-6, 1e-6, 1e-12}});
+}
+
 TEST(Area, CovarianceTurnsWithItsAxes) {
     cases::Cases c{.name = "covariances"};
     for (unsigned seed = 1; seed <= 100; ++seed) {
