@@ -47,7 +47,7 @@ TEST(Resources, ACameraIsWhatAPassUses) {
     const HostFrame frame = small_frame();
     Pass pass = evaluate(device(), data_scene("noise"), frame.frame);
     const std::vector<float> numbers = narrowed(camera_numbers(frame.frame.camera, frame.frame.size));
-    EXPECT_EQ(numbers.size(), 73u);
+    EXPECT_EQ(numbers.size(), 76u);
     EXPECT_EQ(numbers, floats(pass.impl().frame));
 }
 
