@@ -6,7 +6,6 @@
 #include "plan/stored_planes.h"
 
 namespace wrinkle {
-
 namespace {
 
 /// `lines`, indented one level deeper.
@@ -221,9 +220,8 @@ std::string emit_height_taps(Emitter& emitter, const std::string& plane, Section
     return "        wr_vec2 dh;\n        {\n" + load_geometry(geometry, "wr_load_floats({}, at.in)", "        ") +
            sanitize(geometry, "        ") + "        wr_real x = at.x, y = at.y;\n        " + geometry.position + "\n" +
            load_normal("wr_load_floats({}, at.in)", "        ") +
-           "        wr_vec3 unturned = wr_renormalize(wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), "
-           "wr_to_real(nz)), "
-           "n));\n"
+           "        wr_vec3 unturned = wr_renormalize(\n"
+           "            wr_select(valid, wr_v3(wr_to_real(nx), wr_to_real(ny), wr_to_real(nz)), n));\n"
            "        wr_vec3 step_dx, step_dy;\n        {\n        wr_vec3 n = unturned, dp_dx, dp_dy;\n" +
            face_viewer_text(emitter) + derivative_text(emitter) +
            "        step_dx = dp_dx, step_dy = dp_dy;\n        }\n" +

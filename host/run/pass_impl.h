@@ -88,6 +88,9 @@ void run(Pass& pass, const HostPlanes& in, const HostOutputs& out, const ToldSha
 void run(Pass& pass, const HostPlanes& in, const HostDoubles& out, const ToldShare& progress);
 void run(Pass& pass, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress);
 
+/// Throws Error unless the camera's projection tells what the numbers of its depth buffer stand for.
+void check_device_depth(DeviceDepth device_depth, const Camera& camera, Size size);
+
 /// Whether a pass for one frame serves another, once it has its camera.
 bool same_shape(const Frame& a, const Frame& b);
 
