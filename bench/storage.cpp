@@ -63,7 +63,7 @@ std::vector<Way> ways() {
     pixels.push_back("depth"), gradients.emplace_back(), normals.emplace_back();
     return {{"float", {}, {}},
             {"half", planar(half, all), planar(half, kNormal)},
-            {"octahedral normals",
+            {"octahedral normals, halves",
              united({interleaved("normal", octahedral16, kNormal), planar(half, kGradient), planar(half, {"depth"})}),
              interleaved("normal", octahedral16, kNormal)},
             {"RGBA16F", united({interleaved("pixels", half, pixels), interleaved("gradients", half, gradients)}),
