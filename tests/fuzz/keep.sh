@@ -17,7 +17,7 @@ for name in "${@#./}"; do
     mv "$fewest" "$all"
     mkdir "$fewest"
     "$folder/tests/fuzz/$name" -merge=1 -max_len="$longest" "$fewest" "$all" >/dev/null 2>&1
-    (cd "$fewest" && rm -f "$here/corpus/$name.zip" && python3 -m zipfile -c "$here/corpus/$name.zip" -- *)
+    (cd "$fewest" && rm -f "$here/corpus/$name.zip" && python3 -m zipfile -c "$here/corpus/$name.zip" ./*)
     echo "$name: $(ls "$fewest" | wc -l) inputs, $(stat -c %s "$here/corpus/$name.zip") bytes"
     rm -r "$fewest" "$all"
 done
