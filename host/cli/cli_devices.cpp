@@ -3,8 +3,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "cli/check_child.h"
 #include "cli/commands.h"
+#include "cli/device_check.h"
 #include "cli/json_text.h"
+#include "cli/options.h"
 #include "device/choose_device.h"
 #include "device/drivers.h"
 #include "wrinkle/device.h"
@@ -46,11 +49,39 @@ void devices(bool json) {
 
 }  // namespace
 
+struct DevicesArguments {
+    bool json = false, check = false;
+    WantedCheck wanted;
+    std::size_t check_from = 0;
+    int check_on = -1;
+};
+
+void run(const DevicesArguments& arguments) {
+    if (arguments.check_on >= 0) return serve_device_check(arguments.wanted, arguments.check_from, arguments.check_on);
+    if (!arguments.check && arguments.wanted != WantedCheck{})
+        throw CLI::RequiredError("--check (which --device, --lanes and --only go with)");
+    if (arguments.check) return check_device(arguments.wanted, arguments.json);
+    devices(arguments.json);
+}
+
 void add_devices(CLI::App& app) {
-    auto json = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("devices", "List the OpenCL devices of this machine");
-    command->add_flag("--json", *json, "print as JSON");
-    command->callback([json] { devices(*json); });
+    auto arguments = std::make_shared<DevicesArguments>();
+    CLI::App* command = app.add_subcommand("devices", "List the OpenCL devices of this machine, or check one");
+    command->add_flag("--json", arguments->json, "print as JSON");
+    command->add_flag(
+        "--check", arguments->check,
+        "check one, in two minutes at most: transfers, work-groups, whole scenes and every kernel function "
+        "against results that the program carries; the status is 1 where errors exceed what is documented");
+    add_device_option(*command, arguments->wanted.device);
+    add_lanes_option(*command, arguments->wanted.lanes);
+    command
+        ->add_option("--only", arguments->wanted.only,
+                     "checks with this in their names: \"scene\", \"function resolve\"")
+        ->type_name("TEXT");
+    // What --check starts.
+    command->add_option("--check-on", arguments->check_on)->group("");
+    command->add_option("--check-from", arguments->check_from)->group("");
+    command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace wrinkle::cli

@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 16> kRooms{"wrinkle",   "base",      "io",    "scene",  "plan",  "layers",
-                                                  "device",    "resources", "run",   "budget", "tools", "look",
-                                                  "functions", "python",    "watch", "cli"};
+constexpr std::array<std::string_view, 17> kRooms{"wrinkle",   "base",      "io",       "scene",  "plan",  "layers",
+                                                  "device",    "resources", "run",      "budget", "tools", "look",
+                                                  "functions", "python",    "selftest", "watch",  "cli"};
 
 std::size_t place_of(std::string_view room) {
     return static_cast<std::size_t>(std::ranges::find(kRooms, room) - kRooms.begin());
