@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What GPUs would run, without one: compiles the kernels of every scene at one lane for an AMD GPU (gfx906) and an NVIDIA
-one (sm_80) with clang and libclc, and prints registers, private memory and waves as a table. With a file that holds such
+"""What GPUs would run, without one: compiles the kernels of every scene and every function at one lane for an AMD GPU (gfx906)
+and an NVIDIA one (sm_80) with clang and libclc, and prints registers, private memory and waves as a table. With a file that holds such
 a table, exit code 1 where a number has become worse than there or a row is missing; 77 where libclc is not installed.
 
     bench/gpu_code.py build/release/wrinkle [bench/README.md]    # Debian: clang-15, libclc-15, libclc-15-dev
@@ -27,6 +27,7 @@ TARGETS = {
 }
 HEAD = """| scene, kernel | AMD: vector registers | waves a SIMD | private bytes | NVIDIA: private bytes |
 |---|---|---|---|---|"""
+FEW_REGISTERS = 48
 WORSE = (lambda a, b: a > b, lambda a, b: a < b, lambda a, b: a > b, lambda a, b: a > b)
 
 
@@ -65,12 +66,25 @@ def private_of_nvidia(text, kernel):
     return private(kernel)
 
 
-def rows_of(scene):
-    told = subprocess.run([program, "explain", "--lanes", "1", "--json", scene], check=True, capture_output=True, text=True)
-    source = json.loads(told.stdout)["source"]
+def output_of(*arguments):
+    return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def rows_of_source(name, source):
     amd, nvidia = assembly(source, "AMD"), assembly(source, "NVIDIA")
-    return {f"{scene.stem}, {kernel.removeprefix('wr_')}": [*row, private_of_nvidia(nvidia, kernel)]
+    return {f"{name}, {kernel.removeprefix('wr_')}": [*row, private_of_nvidia(nvidia, kernel)]
             for kernel, row in kernels_of_amd(amd).items()}
+
+
+def rows_of(scene):
+    """Of a scene's kernels; None: of those that "wrinkle eval" runs, with one row for all that need few registers."""
+    if scene is not None:
+        return rows_of_source(scene.stem, json.loads(output_of("explain", "--lanes", "1", "--json", scene))["source"])
+    rows = {name.replace("columns_", ""): row
+            for name, row in rows_of_source("functions", output_of("eval", "--kernels")).items()}
+    few = {name: row for name, row in rows.items() if row[0] <= FEW_REGISTERS and not any(row[2:])}
+    worst = [pick(column) for pick, column in zip((max, min, max, max), zip(*few.values()))]
+    return {name: row for name, row in rows.items() if name not in few} | {"functions, all_others": worst}
 
 
 def rows_of_table(path):
@@ -82,7 +96,7 @@ if not all((BUILTINS / builtins).exists() for _, builtins in TARGETS.values()):
     print("no libclc: on Debian, \"apt-get install libclc-15 libclc-15-dev\"")
     sys.exit(77)
 with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
-    made = {name: row for rows in threads.map(rows_of, sorted((root / "data/scenes").glob("*.toml")))
+    made = {name: row for rows in threads.map(rows_of, [*sorted((root / "data/scenes").glob("*.toml")), None])
             for name, row in rows.items()}
 print(HEAD)
 for name, row in made.items():

@@ -7,6 +7,7 @@
 #include "cli/eval_outputs.h"
 #include "cli/options.h"
 #include "functions/reference.h"
+#include "functions/tables.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -17,7 +18,7 @@ struct EvalArguments {
     std::string function, size, device;
     std::string precision = "standard";
     std::vector<std::string> in, out, settings;
-    bool list = false, reference = false, help = false;
+    bool list = false, reference = false, kernels = false, help = false;
 };
 
 template <class T, class In, class Out>
@@ -53,6 +54,10 @@ void eval(const EvalArguments& arguments, const CLI::App& command) {
         fmt::print("{}", arguments.list ? function_list() : reference_page());
         return;
     }
+    if (arguments.kernels) {
+        fmt::print("{}", every_column_kernel());
+        return;
+    }
     if (arguments.function.empty()) {
         if (!arguments.help) throw CLI::RequiredError("FUNCTION (see wrinkle eval --list)");
         fmt::print("{}", command.help("wrinkle"));
@@ -81,6 +86,8 @@ void add_eval(CLI::App& app) {
     command->add_option("FUNCTION", arguments->function, "name of the function");
     command->add_flag("--list", arguments->list, "print every function with its errors");
     command->add_flag("--reference", arguments->reference, "print the reference page kernels/README.md");
+    command->add_flag("--kernels", arguments->kernels,
+                      "print every function as a kernel in OpenCL C, for compilers that are given kernels/ by -I");
     command
         ->add_option("--in", arguments->in,
                      "FILE (CSV, - for standard input); PARAMETER=FILE.npy; PARAMETER=FILE.exr:LAYER")

@@ -106,6 +106,22 @@ const Function& function(const std::string& name) {
         fmt::format("there is no function \"{}\"{} (wrinkle eval --list shows all)", name, did_you_mean(name, names)));
 }
 
+std::string every_column_kernel() {
+    const std::string include = "#include \"wrinkle.clh\"\n", name = "void wr_columns(";
+    std::string text = include;
+    for (const Function& function : functions())
+        for (const FunctionVariant& variant : function.variants) {
+            std::vector<std::string> columns = all_columns(function.parameters);
+            std::ranges::sort(columns);
+            std::string source = column_kernel_source(column_kernel(function, variant), columns, {});
+            source.replace(source.find(include), include.size(), "");
+            source.replace(source.find(name), name.size(),
+                           fmt::format("void wr_columns_{}_{}(", function.name, precision_name(variant.precision)));
+            text += source;
+        }
+    return text;
+}
+
 void evaluate_function(const Device& device, const Function& function, const Columns& in, const ColumnResults& out,
                        const FunctionOptions& options) {
     guarded("evaluate a function", [&] { evaluate<float>(device, function, in, out, options); });

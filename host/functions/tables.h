@@ -18,6 +18,10 @@ std::vector<Function> displacement_functions();
 /// The kernel that computes every result, and its outputs in the order of the results' columns.
 ColumnKernel column_kernel(const Function& function, const FunctionVariant& variant);
 
+/// Every function in every precision as a kernel wr_columns_FUNCTION_PRECISION, as evaluate_function() builds them one
+/// by one: for those who want to know what a compiler makes of them.
+std::string every_column_kernel();
+
 /// How many constants or records a setting takes up; constants follow one another in the order of the settings.
 struct SettingSize {
     std::size_t constants = 0, records = 0;

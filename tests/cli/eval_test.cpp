@@ -197,6 +197,17 @@ TEST(Eval, ExamplesRun) {
     }
 }
 
+/// bench/gpu_code.py compiles them, once.
+TEST(Eval, PrintsEveryFunctionAsAKernel) {
+    const Workplace place;
+    const std::string kernels = place.run("eval --kernels").out;
+    EXPECT_EQ(kernels.find("#include"), kernels.rfind("#include"));
+    for (const Function& function : functions())
+        for (const FunctionVariant& variant : function.variants)
+            expect_mentions(
+                kernels, {"kernel void wr_columns_" + function.name + "_" + precision_name(variant.precision) + "("});
+}
+
 TEST(Reference, PageIsWhatTheTableGives) {
     EXPECT_EQ(read_text(fs::path(WRINKLE_SOURCE_DIR) / "kernels/README.md"), reference_page())
         << "write it anew: build/release/wrinkle eval --reference > kernels/README.md";
