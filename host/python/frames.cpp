@@ -93,21 +93,23 @@ void bind_frames(nb::module_& module) {
             "__init__",
             [](Frame* self, std::uint32_t width, std::uint32_t height, const Camera& camera,
                std::set<std::string> planes, bool ray_depth, const std::vector<std::string>& objects,
-               PlaneFormats formats, const std::string& device_depth) {
+               PlaneFormats formats, const std::string& device_depth, std::uint32_t beauty_scale) {
                 Frame frame{.size = {width, height},
                             .camera = camera,
                             .planes = std::move(planes),
                             .ray_depth = ray_depth,
+                            .beauty_scale = beauty_scale,
                             .formats = std::move(formats),
                             .device_depth = device_depth_of(device_depth)};
                 for (const std::string& name : objects) frame.cryptomatte.emplace(name, CryptomatteManifest().id(name));
                 new (self) Frame(std::move(frame));
             },
             nb::arg("width"), nb::arg("height"), nb::arg("camera"), nb::arg("planes"), nb::arg("ray_depth"),
-            nb::arg("objects"), nb::arg("formats"), nb::arg("device_depth"))
+            nb::arg("objects"), nb::arg("formats"), nb::arg("device_depth"), nb::arg("beauty_scale"))
         .def_prop_ro("width", [](const Frame& frame) { return frame.size.width; })
         .def_prop_ro("height", [](const Frame& frame) { return frame.size.height; })
         .def_ro("camera", &Frame::camera)
+        .def_ro("beauty_scale", &Frame::beauty_scale)
         .def_ro("planes", &Frame::planes);
     nb::class_<PlaneFormat>(module, "PlaneFormat", "How a plane is stored: its encoding, and where in pixels it lies.")
         .def(

@@ -57,7 +57,9 @@ std::uintptr_t enqueue(Pass& pass, const std::map<std::string, std::uintptr_t>& 
     return reinterpret_cast<std::uintptr_t>(done());
 }
 
-PassOptions options_of(int lanes, bool fp64) { return {.lanes = lanes, .fp64 = fp64}; }
+PassOptions options_of(int lanes, bool fp64, PlaneFormats formats) {
+    return {.lanes = lanes, .fp64 = fp64, .output_formats = std::move(formats)};
+}
 
 }  // namespace
 
@@ -74,24 +76,24 @@ void bind_passes(nb::module_& module) {
         .def("enqueue", &enqueue, nb::arg("inputs"), nb::arg("outputs"), nb::arg("wait"));
     module.def(
         "evaluate",
-        [](const Device& device, const Scene& scene, const Frame& frame, int lanes, bool fp64) {
-            return evaluate(device, scene, frame, options_of(lanes, fp64));
+        [](const Device& device, const Scene& scene, const Frame& frame, int lanes, bool fp64, PlaneFormats formats) {
+            return evaluate(device, scene, frame, options_of(lanes, fp64, std::move(formats)));
         },
-        nb::arg("device"), nb::arg("scene"), nb::arg("frame"), nb::arg("lanes"), nb::arg("fp64"),
+        nb::arg("device"), nb::arg("scene"), nb::arg("frame"), nb::arg("lanes"), nb::arg("fp64"), nb::arg("formats"),
         nb::call_guard<nb::gil_scoped_release>());
     module.def(
         "accumulate_decals",
-        [](const Device& device, const Scene& scene, const Frame& frame, int lanes, bool fp64) {
-            return accumulate_decals(device, scene.layers, frame, options_of(lanes, fp64));
+        [](const Device& device, const Scene& scene, const Frame& frame, int lanes, bool fp64, PlaneFormats formats) {
+            return accumulate_decals(device, scene.layers, frame, options_of(lanes, fp64, std::move(formats)));
         },
-        nb::arg("device"), nb::arg("scene"), nb::arg("frame"), nb::arg("lanes"), nb::arg("fp64"),
+        nb::arg("device"), nb::arg("scene"), nb::arg("frame"), nb::arg("lanes"), nb::arg("fp64"), nb::arg("formats"),
         nb::call_guard<nb::gil_scoped_release>());
     module.def(
         "screen_derivatives",
-        [](const Device& device, const Frame& frame, int lanes, bool fp64) {
-            return screen_derivatives(device, frame, options_of(lanes, fp64));
+        [](const Device& device, const Frame& frame, int lanes, bool fp64, PlaneFormats formats) {
+            return screen_derivatives(device, frame, options_of(lanes, fp64, std::move(formats)));
         },
-        nb::arg("device"), nb::arg("frame"), nb::arg("lanes"), nb::arg("fp64"),
+        nb::arg("device"), nb::arg("frame"), nb::arg("lanes"), nb::arg("fp64"), nb::arg("formats"),
         nb::call_guard<nb::gil_scoped_release>());
 }
 

@@ -71,3 +71,60 @@ def test_depth_buffers(camera, planes):
     with pytest.raises(wrinkle.Error, match="minus_one_to_one"):
         wrinkle.screen_derivatives(wrinkle.GBuffer(camera=of_engine, normal=planes["normal"], depth=depth,
                                                    device_depth="reversed"))
+
+
+@pytest.mark.parametrize("kind, components, error", [
+    (np.float16, 3, 2**-11), (np.uint8, 4, 1 / 255), (np.int16, 3, 1 / 65534), (np.int16, 2, 1e-4), (np.float32, 4, 0)])
+def test_normals_are_written_as_they_are_to_be_stored(gbuffer, noise, kind, components, error):
+    wanted = wrinkle.evaluate(noise, gbuffer)["normal"]
+    bumps = wrinkle.Pass(noise, gbuffer, stored={"normal": (kind, components)})
+    assert bumps.outputs == ["normal"]
+    stored = bumps.run(gbuffer)["normal"]
+    assert stored.dtype == kind and stored.shape == (*SHAPE, components)
+    got = stored.astype(np.float64)
+    if np.dtype(kind).kind != "f":
+        got /= np.iinfo(kind).max
+    if np.dtype(kind).kind == "u":
+        got = got * 2 - 1
+    if components == 2:
+        z = 1 - np.abs(got).sum(-1, keepdims=True)
+        got = np.concatenate([got, z], -1) / np.linalg.norm(np.concatenate([got, z], -1), axis=-1, keepdims=True)
+    assert np.abs(got[..., :3] - wanted).max() <= error + 1e-7
+    if components == 4:
+        assert (stored[..., 3] == 0).all()
+
+
+def test_outputs_that_cannot_be_stored_so_are_told(gbuffer, noise):
+    for stored in ({"normal": np.float64}, {"normal": (np.uint8, 2)}, {"normal": (np.int16, 5)}, {"roughness": (np.uint8, 3)}):
+        with pytest.raises(wrinkle.Error, match="output"):
+            wrinkle.Pass(noise, gbuffer, stored=stored)
+    with pytest.raises(wrinkle.Error, match="lit"):
+        wrinkle.Pass(noise, gbuffer, stored={"lit": np.float16})
+
+
+def test_arrays_are_written_again(gbuffer, noise):
+    for stored in ({}, {"normal": (np.int16, 4)}):
+        bumps = wrinkle.Pass(noise, gbuffer, stored=stored)
+        first = bumps.run(gbuffer)
+        kept = first["normal"].copy()
+        first["normal"][:] = 7
+        again = bumps.run(gbuffer, out=first)
+        assert again is first and (again["normal"][..., :3] == kept[..., :3]).all()
+        with pytest.raises(wrinkle.Error, match="normal"):
+            bumps.run(gbuffer, out={"normal": np.zeros((*SHAPE, 3), np.float64)})
+        with pytest.raises(wrinkle.Error, match="normal"):
+            bumps.run(gbuffer, out={})
+
+
+def test_light_is_added_up_over_the_pixels_of_the_picture(camera, planes):
+    """Of 2 x 2 pixels that show one of the picture, all get the same ratio."""
+    random = np.random.default_rng(1)
+    small = random.uniform(0.2, 1, (SHAPE[0] // 2, SHAPE[1] // 2, 3)).astype(np.float32)
+    beauty = small.repeat(2, 0).repeat(2, 1)
+    scene = wrinkle.Scene(layers=[wrinkle.Noise(frequency=40, octaves=1, scale=0.01)],
+                          lighting={"relight": "ratio"}, lights=[wrinkle.Light(kind="sun", direction=[0.5, 0, -1])])
+    lit = [wrinkle.evaluate(scene, wrinkle.GBuffer(camera=camera, beauty=beauty, beauty_scale=scale, **planes))["lit"]
+           for scale in (1, 2)]
+    blocks = [image.reshape(SHAPE[0] // 2, 2, SHAPE[1] // 2, 2, 3) for image in lit]
+    assert np.ptp(blocks[0], axis=(1, 3)).max() > 0.01
+    assert np.ptp(blocks[1], axis=(1, 3)).max() < 1e-5

@@ -15,10 +15,10 @@ _roles = _wrinkle.gbuffer_roles()
 
 
 # How arrays are stored, by dtype; those of other numbers become floats.
-_encodings = {np.dtype(kind): name for kind, name in [
+encodings = {np.dtype(kind): name for kind, name in [
     ("f4", "float32"), ("f2", "half"), ("u1", "unorm8"), ("u2", "unorm16"), ("i1", "snorm8"), ("i2", "snorm16"),
     ("u4", "uint32")]}
-_octahedral = {np.dtype(np.int8): "octahedral8", np.dtype(np.int16): "octahedral16"}
+octahedral_encodings = {np.dtype(np.int8): "octahedral8", np.dtype(np.int16): "octahedral16"}
 _vectors = {"normal", "tangent", "bitangent"}  # unsigned integers from 0 to 1 mean -1 to 1
 
 
@@ -34,7 +34,7 @@ def _array(name: str, value) -> np.ndarray:
 
 def _is_stored(role: str, array: np.ndarray) -> bool:
     """Whether an array is used as it is stored, and not as floats."""
-    if array.dtype not in _encodings or role == "cryptomatte" or (role == "object") != (array.dtype == np.uint32):
+    if array.dtype not in encodings or role == "cryptomatte" or (role == "object") != (array.dtype == np.uint32):
         return False
     return array.dtype != np.float32 or (array.ndim == 3 and array.shape[2] == 4 and array.flags.c_contiguous)
 
@@ -48,6 +48,8 @@ class GBuffer:
     planes       by role: position, normal (world space), depth, uv (v up), object, albedo, roughness, beauty, duv_dx, ...
                  (wrinkle.GBuffer.roles); cryptomatte: ids and coverages in turn, (height, width, 2 n)
 
+    beauty_scale pixels along each side of a pixel of the picture: `beauty` then repeats each of its pixels so often, and
+                 light is added up over them before the picture is multiplied by ratios of it
     device_depth depth is that of a depth buffer, z / w of the camera's projection, reversed or infinite as that is:
                  "zero_to_one", or "minus_one_to_one" of OpenGL, whose buffers hold (z / w + 1) / 2
 
@@ -63,10 +65,11 @@ class GBuffer:
     roles = {role: len(planes) for role, planes in _roles.items()}
 
     def __init__(self, *, camera: Camera, ray_depth: bool = False, device_depth: str = "",
-                 channels: dict | None = None, **planes):
+                 beauty_scale: int = 1, channels: dict | None = None, **planes):
         if not isinstance(camera, Camera):
             camera = Camera(np.asarray(camera.view).tolist(), np.asarray(camera.proj).tolist())
         self.camera, self.ray_depth, self.device_depth = camera, ray_depth, device_depth
+        self.beauty_scale = beauty_scale
         self._formats: dict[str, _wrinkle.PlaneFormat] = {}
         self._memory: dict[str, np.ndarray] = {}  # by name: those of planes with a format
         self._planes: dict[str, np.ndarray] = {}
@@ -98,6 +101,7 @@ class GBuffer:
         out._opened = _wrinkle.OpenedFrame(scene._scene, number)
         out._planes, out._formats, out._memory, out.device_depth = {}, {}, {}, ""
         frame = out._opened.frame
+        out.beauty_scale = frame.beauty_scale
         out._shape, out.camera = (frame.height, frame.width), frame.camera
         return out
 
@@ -141,7 +145,7 @@ class GBuffer:
             return self._opened.frame_for(scene._scene) if scene else self._opened.frame
         height, width = self._shape
         return _wrinkle.Frame(width, height, self.camera, set(self._planes), self.ray_depth,
-                              list(scene._scene.objects) if scene else [], self._formats, self.device_depth)
+                              list(scene._scene.objects) if scene else [], self._formats, self.device_depth, self.beauty_scale)
 
     def _add_role(self, role: str, value):
         if role not in _roles and role != "cryptomatte":
@@ -155,7 +159,7 @@ class GBuffer:
         if _is_stored(role, array) and array.ndim == 3:
             components = array.shape[2]
             if components == len(names) or (len(names) == 3 and components == 4) or \
-                    (role == "normal" and components == 2 and array.dtype in _octahedral):
+                    (role == "normal" and components == 2 and array.dtype in octahedral_encodings):
                 self._store(role, names, array)
                 return
         if array.ndim != 3 or array.shape[2] != len(names):
@@ -169,7 +173,7 @@ class GBuffer:
         array = np.ascontiguousarray(array)
         size, components = array.dtype.itemsize, array.shape[2] if array.ndim == 3 else 1
         octahedral = len(names) == 3 and components == 2
-        encoding = (_octahedral if octahedral else _encodings)[array.dtype]
+        encoding = (octahedral_encodings if octahedral else encodings)[array.dtype]
         to_signed = role in _vectors and array.dtype.kind == "u"
         memory = names[0] if components == 1 else role
         for k, name in enumerate(names):

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _wrinkle
 from .gbuffer import GBuffer
+from .outputs import Stored
 from .scenes import Scene
 
 
@@ -34,14 +35,21 @@ class Pass:
     device   of wrinkle.Device, or what `wrinkle --device` takes; a GPU, else a CPU, by default
     lanes    pixels a work-item: 1, 4, 8 or 16; 0: what the device is best at
     fp64     evaluate in double; results are float64
+    stored   results that are not float32, by name, as engines hold them: {"normal": (np.int16, 2), "lit": (np.float16, 4)}.
+             A dtype, whose components lie in pixels together, or (dtype, components): 4 leaves a fourth beside three, which
+             is 0; 2 of int8 or int16 are octahedral coordinates. uint8 and uint16 hold 0 to 1, of the normal -1 to 1; int8 and
+             int16 hold -1 to 1; what they cannot hold becomes the nearest that they can
     """
 
-    def __init__(self, scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False):
-        frame = gbuffer._frame(scene)
-        self._start(_wrinkle.evaluate(device_of(device), scene._scene, frame, lanes, fp64), gbuffer, fp64)
+    def __init__(self, scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False,
+                 stored: dict | None = None):
+        frame, outputs = gbuffer._frame(scene), Stored(stored or {})
+        built = _wrinkle.evaluate(device_of(device), scene._scene, frame, lanes, fp64, outputs.formats)
+        self._start(built, gbuffer, fp64, outputs)
 
-    def _start(self, built, gbuffer: GBuffer, fp64: bool):
+    def _start(self, built, gbuffer: GBuffer, fp64: bool, outputs: Stored):
         self._pass, self._shape, self._type = built, gbuffer.shape, np.float64 if fp64 else np.float32
+        self._outputs = outputs
         self._formats, self._device_depth = dict(gbuffer._formats), gbuffer.device_depth
         return self
 
@@ -65,11 +73,13 @@ class Pass:
         compiled. Raises Error naming what differs otherwise."""
         self._pass.set_scene(scene._scene)
 
-    def run(self, gbuffer: GBuffer, progress: Callable[[float], object] | None = None) -> dict[str, np.ndarray]:
+    def run(self, gbuffer: GBuffer, progress: Callable[[float], object] | None = None, *,
+            out: dict[str, np.ndarray] | None = None) -> dict[str, np.ndarray]:
         """Evaluates a frame. Gives arrays by name: (height, width), or (height, width, components), whose components are
-        planes of their own in memory.
+        planes of their own in memory, unless they are `stored` otherwise.
 
         progress   called with the share that is done; what it raises ends the work, and so does Ctrl-C
+        out        what a run of this pass gave before, to be written again: a system takes a while to find new memory
         """
         if gbuffer.shape != self._shape:
             raise _wrinkle.Error(f"this pass is for {self._shape[1]} x {self._shape[0]} pixels; the frame has "
@@ -77,17 +87,16 @@ class Pass:
         if gbuffer._formats != self._formats or gbuffer.device_depth != self._device_depth:
             raise _wrinkle.Error("this pass is for planes of other types, or of another layout, than the frame has")
         self._pass.set_camera(gbuffer.camera)
-        groups: dict[str, list[str]] = {}
-        for name in self.outputs:
-            groups.setdefault(name.partition(".")[0], []).append(name)
-        arrays = {group: np.empty((len(names), *self._shape), self._type) for group, names in groups.items()}
-        planes = {name: arrays[group][k] for group, names in groups.items() for k, name in enumerate(names)}
-        if self._formats:
-            whole = {name: plane.reshape(-1).view(np.uint8) for name, plane in planes.items()}
+        if out is None:
+            out, memories = self._outputs.arrays(self.outputs, self._shape, self._type)
+        else:
+            memories = self._outputs.memories(self.outputs, out, self._shape, self._type)
+        if self._formats or self._outputs.formats:
+            whole = {name: plane.reshape(-1).view(np.uint8) for name, plane in memories.items()}
             self._pass.run_bytes(gbuffer._bytes(self.inputs), whole, progress)
         else:
-            self._pass.run(gbuffer._take(self.inputs), planes, progress)
-        return {group: array[0] if len(array) == 1 else np.moveaxis(array, 0, -1) for group, array in arrays.items()}
+            self._pass.run(gbuffer._take(self.inputs), memories, progress)
+        return out
 
     def enqueue(self, inputs: dict[str, int], outputs: dict[str, int], wait=()) -> int:
         """Enqueues the whole frame on OpenCL buffers made elsewhere, given by pointer (PyOpenCL: buffer.int_ptr), each of
@@ -97,23 +106,23 @@ class Pass:
 
 
 def evaluate(scene: Scene, gbuffer: GBuffer | None = None, *, device=None, lanes: int = 0, fp64: bool = False,
-             progress: Callable[[float], object] | None = None) -> dict[str, np.ndarray]:
+             stored: dict | None = None, progress: Callable[[float], object] | None = None) -> dict[str, np.ndarray]:
     """Every layer of the scene over a frame: {"normal": (height, width, 3), ...}, and what the scene's output and lighting
     ask for: surface_gradient, dp_dx, dp_dy, roughness, slope_covariance, marked, lit. Without `gbuffer` the frame that the
-    scene names is read."""
+    scene names is read. More: Pass."""
     gbuffer = gbuffer or GBuffer.of(scene)
-    return Pass(scene, gbuffer, device=device, lanes=lanes, fp64=fp64).run(gbuffer, progress)
+    return Pass(scene, gbuffer, device=device, lanes=lanes, fp64=fp64, stored=stored).run(gbuffer, progress)
 
 
 def accumulate_decals(scene: Scene, gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False) -> np.ndarray:
     """The volume gradients of a scene's decals, (height, width, 3), without any normal: project them onto the one you
     have: g = v - n (n . v), then normalize(n - g)."""
-    built = _wrinkle.accumulate_decals(device_of(device), scene._scene, gbuffer._frame(scene), lanes, fp64)
-    return Pass.__new__(Pass)._start(built, gbuffer, fp64).run(gbuffer)["volume_gradient"]
+    built = _wrinkle.accumulate_decals(device_of(device), scene._scene, gbuffer._frame(scene), lanes, fp64, {})
+    return Pass.__new__(Pass)._start(built, gbuffer, fp64, Stored({})).run(gbuffer)["volume_gradient"]
 
 
 def screen_derivatives(gbuffer: GBuffer, *, device=None, lanes: int = 0, fp64: bool = False):
     """dp/dx and dp/dy of the surface, metres per pixel right and down, (height, width, 3) each, without neighbours."""
-    built = _wrinkle.screen_derivatives(device_of(device), gbuffer._frame(), lanes, fp64)
-    out = Pass.__new__(Pass)._start(built, gbuffer, fp64).run(gbuffer)
+    built = _wrinkle.screen_derivatives(device_of(device), gbuffer._frame(), lanes, fp64, {})
+    out = Pass.__new__(Pass)._start(built, gbuffer, fp64, Stored({})).run(gbuffer)
     return out["dp_dx"], out["dp_dy"]
