@@ -2,15 +2,14 @@
 
 #include <OpenImageIO/parallel.h>
 #include <half.h>
-#include <libdeflate.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <numeric>
 
+#include "io/deflate.h"
 #include "io/workspaces.h"
 
 namespace wrinkle::io {
@@ -18,11 +17,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "EXR stores numbers so");
 
-// Levels of libdeflate. The usual one makes files as large as zlib's level 4, which is OpenEXR's. What hardly packs, as
-// noise and bumped normals do, takes twice as long for a hundredth of its size; the quick level does for it.
-constexpr int kUsual = 4, kQuick = 1;
-constexpr double kHardlyPacks = 0.7;
-constexpr std::size_t kSample = 8192;  // bytes that tell, from either half of a block
 constexpr float kLargestHalf = 65504;
 constexpr std::size_t kBlockHead = 8;  // the number of its first row, and its size
 
@@ -45,30 +39,11 @@ void predict(const Bytes& in, Bytes& out) {
     if (in.size() > 1) odd[0] = static_cast<std::uint8_t>(in[1] - in[2 * half - 2] + bias);
 }
 
-struct FreeCompressor {
-    void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
-};
-
-using Compressor = std::unique_ptr<libdeflate_compressor, FreeCompressor>;
-
 /// The memory that a thread needs for a block. It is reused, as touching fresh memory costs as much as the work.
 struct Workspace {
     Bytes plain, predicted;
-    Compressor usual{libdeflate_alloc_compressor(kUsual)}, quick{libdeflate_alloc_compressor(kQuick)};
+    Deflater deflater;
 };
-
-/// The compressor that suits a predicted block. It depends on the block alone, so that a file does not depend on
-/// threads.
-libdeflate_compressor* suited(Workspace& work) {
-    const Bytes& bytes = work.predicted;
-    if (bytes.size() < 8 * kSample) return work.usual.get();
-    std::array<std::uint8_t, 2 * kSample> sample{}, out{};
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 4), kSample, sample.begin());
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 4 * 3), kSample, sample.begin() + kSample);
-    const auto most = static_cast<std::size_t>(kHardlyPacks * sample.size());
-    const bool packs = libdeflate_zlib_compress(work.quick.get(), sample.data(), sample.size(), out.data(), most) > 0;
-    return packs ? work.usual.get() : work.quick.get();
-}
 
 void store(const float* row, std::size_t width, bool half_floats, std::uint8_t* out) {
     if (!half_floats) {
@@ -99,8 +74,7 @@ struct ExrBlocks::Impl {
         out.resize(kBlockHead + plain.size());
         if (compression != Compression::none) {
             predict(plain, work.predicted);
-            packed = libdeflate_zlib_compress(suited(work), work.predicted.data(), work.predicted.size(),
-                                              out.data() + kBlockHead, plain.size() - 1);
+            packed = work.deflater.pack(work.predicted, std::span(out).subspan(kBlockHead, plain.size() - 1));
         }
         if (packed == 0) {  // readers tell a block that is stored as it is by its size
             packed = plain.size();

@@ -19,7 +19,7 @@ struct BlockPlane {
 };
 
 /// Writes the pixels of an EXR file, once its header and an empty table of offsets are there: blocks of rows, packed
-/// by libdeflate on all cores, which OpenEXR 3.1 leaves to zlib at less than half the speed.
+/// on all cores (deflate.h), which OpenEXR 3.1 leaves to zlib at less than half the speed.
 ///
 /// A row that does not fill its block waits for the next ones.
 class ExrBlocks : public RowSink {
