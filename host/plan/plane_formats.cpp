@@ -41,6 +41,9 @@ void check_alone(const std::string& who, const std::string& plane, const PlaneFo
     const bool direction = is_octahedral(format.encoding);
     if ((direction || format.encoding == PlaneEncoding::uint32) && (format.scale != 1 || format.bias != 0))
         refuse("has a scale or a bias; numbers so stored are taken as they are");
+    const bool bits = format.encoding == PlaneEncoding::float32 || format.encoding == PlaneEncoding::uint32;
+    if (holds_bits(plane) && (!bits || format.scale != 1 || format.bias != 0))
+        refuse("loses the bits of Cryptomatte's ids; they must be float32 or uint32 without a scale or bias");
     if (direction && std::ranges::find(kNormal, plane) == kNormal.end())
         refuse("is no part of the normal, which alone can be octahedral");
 }
@@ -76,6 +79,9 @@ PlaneFormats interleaved(const std::string& memory, PlaneEncoding encoding, cons
     PlaneFormats formats;
     const std::uint32_t bytes = bytes_of(encoding);
     const bool one = is_octahedral(encoding);
+    if (one && planes != kNormal)
+        throw Error(fmt::format("interleaved \"{}\": {} pixels hold {} and nothing else; found \"{}\"", memory,
+                                encoding_name(encoding), fmt::join(kNormal, ", "), fmt::join(planes, "\", \"")));
     for (std::size_t i = 0; i < planes.size(); ++i)
         if (!planes[i].empty())
             formats[planes[i]] = {.encoding = encoding,

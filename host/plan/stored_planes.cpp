@@ -16,9 +16,6 @@ const PlaneFormat* format_of(const std::string& plane, const PlaneFormats& forma
     return found == formats.end() ? nullptr : &found->second;
 }
 
-/// Cryptomatte's ids are bits that no arithmetic may touch.
-bool holds_bits(const std::string& plane) { return plane.starts_with("crypto.id") || plane == "crypto.front"; }
-
 struct Text {
     const char* type;  ///< as kernels know it
     double full = 1;   ///< the integer that stands for 1
@@ -103,6 +100,14 @@ std::uint32_t pixel_bytes(const std::string& memory, const PlaneFormats& formats
     return sizeof(float);
 }
 
+std::uint32_t store_alignment(const std::string& memory, const PlaneFormats& formats, int lanes) {
+    const auto found = std::ranges::find(formats, memory, [](const auto& entry) { return entry.second.memory; });
+    const std::uint32_t together = static_cast<std::uint32_t>(lanes) * pixel_bytes(memory, formats);
+    if (found == formats.end()) return together;
+    const std::uint32_t number = bytes_of(found->second.encoding);
+    return found->second.stride == number ? together : sizeof(float);
+}
+
 bool has_gaps(const std::string& memory, const PlaneFormats& formats) {
     std::map<std::uint32_t, std::uint32_t> bytes;  // octahedral planes share theirs
     for (const auto& [plane, format] : formats)
@@ -111,6 +116,8 @@ bool has_gaps(const std::string& memory, const PlaneFormats& formats) {
     for (const auto& [offset, count] : bytes) covered += count;
     return covered < pixel_bytes(memory, formats) && !bytes.empty();
 }
+
+bool holds_bits(const std::string& plane) { return plane.starts_with("crypto.id") || plane == "crypto.front"; }
 
 std::string input_arguments(const std::vector<std::string>& planes, const PlaneFormats& formats) {
     return arguments(planes, formats, false);

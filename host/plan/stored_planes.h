@@ -22,8 +22,14 @@ void require_planes(const PlaneFormats& formats, const std::set<std::string>& pl
 std::vector<std::string> memories_of(const std::vector<std::string>& planes, const PlaneFormats& formats);
 /// Bytes from pixel to pixel of such a memory.
 std::uint32_t pixel_bytes(const std::string& memory, const PlaneFormats& formats);
+/// What such a memory must be aligned to where vectors of so many lanes are stored to it: their numbers together where
+/// one plane has it to itself, else a number.
+std::uint32_t store_alignment(const std::string& memory, const PlaneFormats& formats, int lanes);
 /// Whether planes leave bytes of its pixels out.
 bool has_gaps(const std::string& memory, const PlaneFormats& formats);
+
+/// Whether a plane holds bits that no arithmetic may touch: Cryptomatte's ids.
+bool holds_bits(const std::string& plane);
 
 /// Kernel text: the arguments for the planes that a kernel reads, in the order of memories_of(); what goes before its
 /// statements; the type of a plane that is read.

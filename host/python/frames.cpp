@@ -143,8 +143,9 @@ void bind_frames(nb::module_& module) {
         }
         return roles;
     });
-    module.def("cryptomatte_id", &cryptomatte_hash, nb::arg("name"),
-               "Cryptomatte's id of an object's name, as the id channels hold its bits.");
+    module.def(
+        "cryptomatte_id", [](const std::string& name) { return cryptomatte_hash(name); }, nb::arg("name"),
+        "Cryptomatte's id of an object's name, as the id channels hold its bits.");
 }
 
 }  // namespace wrinkle::python

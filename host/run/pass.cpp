@@ -177,7 +177,10 @@ Pass accumulate_decals(const Device& device, std::span<const Layer> decals, cons
     Scene scene;
     scene.layers.assign(decals.begin(), decals.end());
     Frame without_normals = frame;
-    for (const char* const plane : {"normal.x", "normal.y", "normal.z"}) without_normals.planes.erase(plane);
+    for (const char* const plane : {"normal.x", "normal.y", "normal.z"}) {
+        without_normals.planes.erase(plane);
+        without_normals.formats.erase(plane);
+    }
     return accumulate_decals(device, scene, without_normals, options, nullptr);
 }
 

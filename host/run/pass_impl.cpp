@@ -226,7 +226,8 @@ cl::Event Pass::Impl::enqueue(const DevicePlanes& in, const DevicePlanes& out, c
         for (const std::string& name : plan.kernels[k].outputs) {
             const std::size_t bytes = output_bytes(name);
             const cl::Buffer& buffer = plane(out, name, touched * bytes);
-            check_alignment(buffer, name, lanes * bytes);
+            check_alignment(buffer, name,
+                            options.fp64 ? lanes * bytes : store_alignment(name, plan.output_formats, options.lanes));
             kernel.setArg(i++, buffer);
         }
         kernel.setArg(i++, static_cast<cl_uint>(before));

@@ -10,6 +10,14 @@ void check_device_depth(DeviceDepth device_depth, const Camera& camera, Size siz
     if (device_depth == DeviceDepth::none) return;
     const auto& z = camera.proj[2];
     const CameraKind kind = camera_kind(camera, size);
+    if (kind == CameraKind::general) {
+        const auto& w = camera.proj[3];
+        throw Error(fmt::format(
+            "a device depth needs a projection whose fourth row is 0, 0, -1, 0 (perspective; the view looks "
+            "along -z, so turn the signs of the view's and the projection's z of left-handed engines) or "
+            "0, 0, 0, 1 (parallel); found {}, {}, {}, {}",
+            w[0], w[1], w[2], w[3]));
+    }
     const bool useful = kind == CameraKind::pinhole ? z[3] != 0 : kind == CameraKind::parallel && z[2] != 0;
     if (!useful || z[0] != 0 || z[1] != 0)
         throw Error(

@@ -52,7 +52,7 @@ using HostBytes = std::map<std::string, std::span<const std::byte>>;  ///< plane
 using HostByteOutputs = std::map<std::string, std::span<std::byte>>;  ///< by Pass::outputs()
 /// Each holds at least padded(pixels) floats, or pixels of another format, inputs of a band the rows before it on top
 /// of that; what lies beyond `pixels` is overwritten. Outputs that use host memory (CL_MEM_USE_HOST_PTR) must be
-/// aligned to one lane group, 128 bytes at most.
+/// aligned to one lane group, 128 bytes at most; planes in pixels together to 4 bytes.
 using DevicePlanes = std::map<std::string, cl::Buffer>;
 
 struct PassOptions {

@@ -28,12 +28,13 @@ namespace [[gnu::visibility("default")]] wrinkle {
 ///   uint32             4       whole ones                              0
 ///
 /// Octahedral normals are two signed integers, u in the lower bytes [Cigolle et al. 2014]. Whole numbers are those of
-/// objects, all of whose 32 bits count, Cryptomatte's ids as they are, or of other planes numbers up to 2^24.
+/// objects, all of whose 32 bits count, Cryptomatte's ids as they are, or of other planes numbers up to 2^24. A mask
+/// cannot tell an object below 2^24 from one whose number has the bits of the float of the former's: 1 from 1065353216.
 ///
-/// Beside that, reading integers adds 7.4e-8 of the largest number; halves and octahedral normals are read exactly.
+/// Beside that, reading integers adds 1.2e-7 of the largest number; halves and octahedral normals are read exactly.
 /// What integers cannot hold is written as the nearest that they can, NaN as 0. An octahedral normal always has a
-/// direction: background is told by the depth then, and the normals of invalid pixels come out with a length between
-/// 0.5 and 1.
+/// direction, and no integer of unorm8 or unorm16 stands for 0 in -1 to 1: background is told by the depth then. The
+/// normals of invalid pixels come out of octahedral ones with a length between 0.5 and 1.
 enum class PlaneEncoding { float32, half, unorm8, unorm16, snorm8, snorm16, octahedral8, octahedral16, uint32 };
 
 /// How a plane is stored. Numbers have to lie at multiples of their size.
@@ -60,6 +61,8 @@ std::string encoding_name(PlaneEncoding encoding);
 ///
 ///     const auto rgba = wrinkle::interleaved("gbuffer0", wrinkle::PlaneEncoding::unorm8,
 ///                                            {"albedo.r", "albedo.g", "albedo.b", "roughness"});
+///
+/// Errors: octahedral pixels hold nothing but one normal, so that no other plane may be named, nor a gap.
 PlaneFormats interleaved(const std::string& memory, PlaneEncoding encoding, const std::vector<std::string>& planes,
                          double scale = 1, double bias = 0);
 

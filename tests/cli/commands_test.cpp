@@ -80,6 +80,10 @@ TEST(Commands, Explain) {
     const Ran mistyped = place.run("explain --format normal=octahedral61 scene.toml");
     EXPECT_NE(mistyped.code, 0);
     expect_mentions(mistyped.err, {"\"octahedral61\"; did you mean \"octahedral16\"", "\"uint32\""});
+    expect_mentions(place.run("explain --format normal scene.toml").err, {"NAME=ENCODING"});
+    expect_mentions(place.run("explain --format normal=half --format normal.x=half scene.toml").err,
+                    {"\"normal.x\" has a format already"});
+    expect_mentions(place.run("explain --format normal=unorm8 scene.toml").out, {"-1.00000000f}"});
     expect_mentions(place.run("explain --full scene.toml").out, {"#line 1 \"vec.clh\""});
     const auto json = nlohmann::json::parse(place.run("explain --json scene.toml").out);
     EXPECT_EQ(json.at("sections").size(), 5u);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,13 @@ inline std::vector<int> lanes_to_try(const std::vector<int>& wanted = {1, 4, 8, 
     const char* named = std::getenv("WRINKLE_TEST_LANES");
     if (named == nullptr) return wanted;
     std::vector<int> lanes;
+    bool known = false;
     std::istringstream words(named);
-    for (int n = 0; words >> n;)
+    for (int n = 0; words >> n;) {
+        known |= n == 1 || n == 4 || n == 8 || n == 16;
         if (std::ranges::find(wanted, n) != wanted.end()) lanes.push_back(n);
+    }
+    if (!known) throw std::runtime_error("WRINKLE_TEST_LANES names none of 1, 4, 8 and 16, so nothing would be tested");
     return lanes;
 }
 

@@ -223,6 +223,7 @@ int main() try {
         const float want = reinterpret_cast<const float*>(plain.at(std::string("lit.") + "rgb"[i % 3]).data())[i / 3];
         const float got =
             from_half(reinterpret_cast<const std::uint16_t*>(packed.at("lit").data())[4 * (i / 3) + i % 3]);
+        if (!std::isfinite(got) || !std::isfinite(want)) throw std::runtime_error("a colour is not finite");
         off = std::max(off, std::abs(static_cast<double>(got) - want) / (0.05 + want)), brightness += want;
         picture.put(static_cast<char>(std::lround(255 * std::pow(std::clamp(got, 0.0f, 1.0f), 1 / 2.2f))));
     }

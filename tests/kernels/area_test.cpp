@@ -110,6 +110,22 @@ TEST(Area, SidesHaveTheirCovariance) {
            {"spread", xyz("got"), ErrorMeasure::relative, 1e-6, 1e-6, 1e-12}});
 }
 
+/// Differences of means may leave an xy that no covariance with such an xx has.
+TEST(Area, SidesOfWhatIsNoCovarianceStayWithinTheLargerDeviation) {
+    cases::Cases c{.name = "sides of rounded covariances"};
+    for (const V& spread : {V{1e-12L, 1e-6L, 0.06L}, V{1e-30L, -1e-9L, 0.1L}, V{0.1L, 0.2L, 0}, V{0, 0.1L, 0.04L}}) {
+        c.add("sides", true);
+        c.in("spread", cases::Random::rounded(spread)), c.out("beyond", real{0});
+    }
+    check(c,
+          "wr_real beyond = 0, most = sqrt(2 * fmax(spread.x, spread.z)) * (wr_real)(1.000001f);\n"
+          "for (int i = 0; i < 4; ++i) {\n"
+          "    wr_vec2 s = wr_side_of_spread(spread, i);\n"
+          "    beyond = fmax(beyond, fmax(fabs(s.x), fabs(s.y)) - most);\n"
+          "}\n",
+          {{"beyond", {"beyond"}, ErrorMeasure::absolute, 0, 0, 0}});
+}
+
 TEST(Area, CovarianceTurnsWithItsAxes) {
     cases::Cases c{.name = "covariances"};
     for (unsigned seed = 1; seed <= 100; ++seed) {

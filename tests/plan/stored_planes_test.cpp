@@ -50,12 +50,15 @@ TEST(PlanOfStoredPlanes, RefusesWhatCannotBe) {
     expect_mentions(refused({{"object", {.encoding = uint32, .scale = 2}}}),
                     {"\"object\", as uint32", "scale or a bias"});
     expect_mentions(refused({{"uv.u", {.encoding = octahedral8, .memory = "n"}}}), {"no part of the normal"});
-    PlaneFormats two = interleaved("n", octahedral16, {"normal.x", "normal.y"});
+    expect_mentions(refused({{"crypto.id0", {.encoding = half}}}), {"crypto.id0", "bits of Cryptomatte's ids"});
+    PlaneFormats two = interleaved("n", octahedral16, {"normal.x", "normal.y", "normal.z"});
+    two.erase("normal.z");
     expect_mentions(refused(two), {"\"normal.z\" must have the same format"});
     two = interleaved("a", half, {"uv.u", "uv.v"});
     two["uv.v"].stride = 8;
     expect_mentions(refused(two), {"\"uv.u\" and \"uv.v\" share the memory \"a\"", "4 and 8 bytes"});
     expect_mentions(refused(interleaved("depth", half, {"uv.u", "uv.v"})), {"called \"depth\"", "lies elsewhere"});
+    EXPECT_THROW(interleaved("n", octahedral16, {"normal.x", "normal.y", "normal.z", ""}), Error);
     const auto output = [](const PlaneFormats& formats) {
         try {
             make_plan(noise_scene(), everything(), {.output_formats = formats});

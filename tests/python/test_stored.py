@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import wrinkle
-from conftest import SHAPE
+from conftest import DATA, SHAPE
 
 
 def tilted(kind, components):
@@ -128,3 +128,59 @@ def test_light_is_added_up_over_the_pixels_of_the_picture(camera, planes):
     blocks = [image.reshape(SHAPE[0] // 2, 2, SHAPE[1] // 2, 2, 3) for image in lit]
     assert np.ptp(blocks[0], axis=(1, 3)).max() > 0.01
     assert np.ptp(blocks[1], axis=(1, 3)).max() < 1e-5
+
+
+def test_integers_of_either_byte_order(camera, planes):
+    stored, _ = tilted(np.uint16, 3)
+    swapped = wrinkle.GBuffer(camera=camera, normal=stored.astype(">u2"), depth=planes["depth"])
+    assert (swapped.plane("normal.x") == stored[..., 0]).all()
+    numbers = np.where(planes["object"] == 7, 4000000007, 7)
+    for kind in (">u4", np.int64, np.uint64):
+        taken = wrinkle.GBuffer(camera=camera, normal=planes["normal"], object=numbers.astype(kind)).plane("object")
+        assert taken.dtype == np.uint32 and (taken == numbers).all()
+    with pytest.raises(wrinkle.Error, match="found -1 to 7"):
+        wrinkle.GBuffer(camera=camera, object=np.where(numbers == 7, 7, -1))
+
+
+def test_channels_are_no_directions_whatever_their_name(camera, planes):
+    dirt = np.full(SHAPE, 128, np.uint8)
+    given = {name: wrinkle.evaluate(
+        wrinkle.Scene(layers=[wrinkle.Constant(gradient=[0.75, 0, 0], mask=wrinkle.Mask(channel=name))]),
+        wrinkle.GBuffer(camera=camera, normal=planes["normal"], depth=planes["depth"], channels={name: dirt}))["normal"]
+        for name in ("dirt", "normal", "object", "cryptomatte")}
+    for name in given:
+        assert (given[name] == given["dirt"]).all()
+
+
+def test_a_fourth_component_is_not_read_whatever_the_memory_is_like(camera, planes):
+    stored, normal = tilted(np.float32, 4)
+    for array in (np.repeat(stored, 2, axis=1)[:, ::2], np.asfortranarray(stored), stored.astype(np.float64)):
+        gbuffer = wrinkle.GBuffer(camera=camera, normal=array, depth=planes["depth"])
+        assert np.allclose(gbuffer.plane("normal.z"), normal[..., 2], atol=1e-7)
+
+
+def test_sums_of_decals_need_no_normals_of_any_format(camera, planes):
+    stored, _ = tilted(np.float16, 3)
+    decal = wrinkle.Scene(layers=[wrinkle.Decal(texture=DATA / "textures" / "cracks_height.png", center=[0, 0, 0],
+                                                half_size=[1, 1, 0.5], scale=0.1)])
+    with_normals = wrinkle.GBuffer(camera=camera, normal=stored, depth=planes["depth"])
+    assert (wrinkle.accumulate_decals(decal, with_normals) ==
+            wrinkle.accumulate_decals(decal, wrinkle.GBuffer(camera=camera, depth=planes["depth"]))).all()
+
+
+@pytest.mark.parametrize("array, said", [
+    (1.0, r"\(height, width, 2 n\)"), (np.zeros((*SHAPE, 0)), "2 n"), (np.zeros((*SHAPE, 1), np.float32), "2 n"),
+    (np.zeros((*SHAPE, 2), np.uint32), "float32 is wanted"), (np.zeros((*SHAPE, 2), np.float16), "float32 is wanted")])
+def test_cryptomattes_that_cannot_be(camera, array, said):
+    with pytest.raises(wrinkle.Error, match=said):
+        wrinkle.GBuffer(camera=camera, cryptomatte=array)
+
+
+def test_ids_of_names(camera, planes):
+    identity = wrinkle.cryptomatte_id("cube")
+    ids = np.zeros((*SHAPE, 2), np.float32)
+    ids[:24, :, 0], ids[:24, :, 1] = np.uint32(identity).view(np.float32), 1
+    scene = wrinkle.Scene(layers=[wrinkle.Constant(gradient=[0.75, 0, 0], mask=wrinkle.Mask(cryptomatte="cube"))])
+    normal = wrinkle.evaluate(scene, wrinkle.GBuffer(camera=camera, normal=planes["normal"], depth=planes["depth"],
+                                                     cryptomatte=ids))["normal"]
+    assert np.allclose(normal[:24], (-0.6, 0, 0.8), atol=1e-6) and (normal[24:] == (0, 0, 1)).all()

@@ -75,11 +75,15 @@ TEST(DeviceDepth, BecomesPositions) {
         for (std::size_t i = 0; i < frame.count(); ++i)
             for (const char* step : {"dp_dx", "dp_dy"}) {
                 const V a = vec_at(got, step, i), b = vec_at(want, step, i);
+                ASSERT_TRUE(std::isfinite(length(a)) && std::isfinite(length(b))) << buffer.what << ' ' << i;
                 if (length(b) > 0) worst = std::max(worst, length(a - b) / length(b));
             }
         double degrees = 0;  // of bumps, which depend on the positions
-        for (std::size_t i = 0; i < frame.count(); ++i)
-            degrees = std::max(degrees, angle_degrees(vec_at(got, "normal", i), vec_at(want, "normal", i)));
+        for (std::size_t i = 0; i < frame.count(); ++i) {
+            const double off = angle_degrees(vec_at(got, "normal", i), vec_at(want, "normal", i));
+            ASSERT_TRUE(std::isfinite(off)) << buffer.what << ' ' << i;
+            degrees = std::max(degrees, off);
+        }
         fmt::print(
             "{}: steps off by {:.2g}, normals by {:.2g} degrees; floats of the buffer cost {:.2g} of the depth\n",
             buffer.what, worst, degrees, rounding);
@@ -103,6 +107,10 @@ TEST(DeviceDepth, NeedsAProjectionThatTells) {
     Camera oblique = test_camera();
     oblique.proj[2][0] = 0.1;
     EXPECT_NE(refused(oblique).find("0, 0, a, b"), std::string::npos);
+    Camera left_handed = test_camera();
+    left_handed.proj[3] = {0, 0, 1, 0};
+    EXPECT_NE(refused(left_handed).find("fourth row is 0, 0, -1, 0"), std::string::npos);
+    EXPECT_NE(refused(left_handed).find("found 0, 0, 1, 0"), std::string::npos);
     frame.frame.device_depth = DeviceDepth::minus_one_to_one;
     EXPECT_NE(refused(with_depth(test_camera(), 0, 0.1)).find("reversed"), std::string::npos);
     frame.frame.ray_depth = true;

@@ -29,7 +29,7 @@ def _array(name: str, value) -> np.ndarray:
     array = np.asarray(value)
     if array.dtype.kind not in "fiub":
         raise Error(f'plane "{name}": float32 is wanted, or numbers that become it; found {array.dtype}')
-    return array
+    return array.astype(array.dtype.newbyteorder("="), copy=False)
 
 
 def _is_stored(role: str, array: np.ndarray) -> bool:
@@ -37,6 +37,26 @@ def _is_stored(role: str, array: np.ndarray) -> bool:
     if array.dtype not in encodings or role == "cryptomatte" or (role == "object") != (array.dtype == np.uint32):
         return False
     return array.dtype != np.float32 or (array.ndim == 3 and array.shape[2] == 4 and array.flags.c_contiguous)
+
+
+def _object_numbers(array: np.ndarray) -> np.ndarray:
+    """Whole numbers as uint32, which holds them all; floats as they are."""
+    if array.dtype.kind not in "iu" or array.dtype == np.uint32:
+        return array
+    if array.size and (array.min() < 0 or array.max() >= 2**32):
+        raise Error(f'plane "object": numbers from 0 to 2^32 - 1 are wanted; found {array.min()} to {array.max()}')
+    return array.astype(np.uint32)
+
+
+def _ids_and_coverages(array: np.ndarray) -> list[str]:
+    """The planes of a Cryptomatte, whose ids are the bits of floats."""
+    if array.dtype not in (np.float32, np.float64):
+        raise Error(f'plane "cryptomatte": float32 is wanted, whose bits the ids are (array.view(numpy.float32) of '
+                    f'integers); found {array.dtype}')
+    if array.ndim != 3 or array.shape[2] == 0 or array.shape[2] % 2 != 0:
+        raise Error('plane "cryptomatte": the shape (height, width, 2 n) is wanted, ids and coverages in turn; found '
+                    f'{array.shape}')
+    return [f"crypto.{part}{k // 2}" for k, part in enumerate(["id", "coverage"] * (array.shape[2] // 2))]
 
 
 class GBuffer:
@@ -57,9 +77,10 @@ class GBuffer:
     their own (numpy's moveaxis of a (components, height, width) array), and arrays (height, width) or (height, width,
     components) of float16; of uint8 and uint16, 0 to 1 (of normals and tangents -1 to 1); of int8 and int16, -1 to 1; of
     uint32 for `object`. Three components may have a fourth beside them, which is not read (RGBA). Two
-    of int8 or int16 for `normal` are octahedral coordinates. Other numbers become float32: objects of other integers,
-    float64, int64, float32 of (height, width, 3). Anything with __array_interface__ or __dlpack__ will do.
-    Pixels of the background have a normal of zero, or a depth that is not finite.
+    of int8 or int16 for `normal` are octahedral coordinates. Other numbers become float32: float64, int64, float32 of
+    (height, width, 3); objects of other integers become uint32. Anything with __array_interface__ or __dlpack__ will do.
+    Pixels of the background have a normal of zero, or a depth that is not finite. Normals of uint8, uint16 and octahedral
+    ones are never zero: their background is told by the depth.
     """
 
     roles = {role: len(planes) for role, planes in _roles.items()}
@@ -68,7 +89,7 @@ class GBuffer:
                  beauty_scale: int = 1, channels: dict | None = None, **planes):
         if not isinstance(camera, Camera):
             camera = Camera(np.asarray(camera.view).tolist(), np.asarray(camera.proj).tolist())
-        self.camera, self.ray_depth, self.device_depth = camera, ray_depth, device_depth
+        self.camera, self.ray_depth, self.device_depth = camera, ray_depth, device_depth or ""
         self.beauty_scale = beauty_scale
         self._formats: dict[str, _wrinkle.PlaneFormat] = {}
         self._memory: dict[str, np.ndarray] = {}  # by name: those of planes with a format
@@ -79,8 +100,8 @@ class GBuffer:
             self._add_role(role, value)
         for name, value in (channels or {}).items():
             array = _array(name, value)
-            if _is_stored(name, array) and array.ndim == 2:
-                self._store(name, [f"channel:{name}"], array)
+            if _is_stored("channel", array) and array.ndim == 2:
+                self._store("channel", [f"channel:{name}"], array)
             else:
                 self._add(f"channel:{name}", name, array)
         if self._shape is None:
@@ -152,8 +173,12 @@ class GBuffer:
             raise Error(f'"{role}" is no role of a plane; there are {", ".join([*_roles, "cryptomatte"])}; other planes '
                         f'go into channels={{"{role}": array}}')
         array = _array(role, value)
-        names = _roles.get(role) or [f"crypto.{part}{k // 2}" for k, part in
-                                     enumerate(["id", "coverage"] * (array.shape[-1] // 2))]
+        if role == "cryptomatte":
+            names = _ids_and_coverages(array)
+        else:
+            names = _roles[role]
+        if role == "object":
+            array = _object_numbers(array)
         if len(names) == 1 and array.ndim == 2:
             array = array[..., None]
         if _is_stored(role, array) and array.ndim == 3:
@@ -162,7 +187,7 @@ class GBuffer:
                     (role == "normal" and components == 2 and array.dtype in octahedral_encodings):
                 self._store(role, names, array)
                 return
-        if array.ndim != 3 or array.shape[2] != len(names):
+        if array.ndim != 3 or array.shape[2] != len(names) and (len(names), array.shape[2]) != (3, 4):
             wanted = "(height, width)" if len(names) == 1 else f"(height, width, {len(names)})"
             raise Error(f'plane "{role}": the shape {wanted} is wanted; found {np.shape(value)}')
         for k, name in enumerate(names):

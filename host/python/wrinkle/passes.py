@@ -55,7 +55,7 @@ class Pass:
 
     @property
     def inputs(self) -> list[str]:
-        """Planes that it reads."""
+        """Planes that it reads; of planes that lie in pixels together, the memory that holds them, by the role's name."""
         return self._pass.inputs
 
     @property
@@ -100,7 +100,8 @@ class Pass:
 
     def enqueue(self, inputs: dict[str, int], outputs: dict[str, int], wait=()) -> int:
         """Enqueues the whole frame on OpenCL buffers made elsewhere, given by pointer (PyOpenCL: buffer.int_ptr), each of
-        padded(width * height) floats: the next multiple of 64. `wait`: pointers of events. Gives the pointer of an event,
+        padded(width * height) pixels: the next multiple of 64. Pixels are floats, of planes stored otherwise what the
+        arrays of the G-buffer hold. `wait`: pointers of events. Gives the pointer of an event,
         which is the caller's: pyopencl.Event.from_int_ptr(pointer, retain=False)."""
         return self._pass.enqueue(inputs, outputs, list(wait))
 
