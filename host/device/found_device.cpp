@@ -29,6 +29,7 @@ DeviceInfo describe_device(const cl::Device& device) {
         info.largest_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
         info.lanes = lanes_of(device);
         info.fp64 = device.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_fp64") != std::string::npos;
+        info.own_memory = info.type != "cpu" && device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == 0;
         return info;
     });
 }

@@ -9,6 +9,7 @@
 #include "run/pass_impl.h"
 #include "run/plane_buffers.h"
 #include "run/shared_memory.h"
+#include "run/staged_bands.h"
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
 
@@ -49,6 +50,10 @@ void run_bands(Pass::Impl& impl, const HostBytes& in, const HostByteOutputs& out
     check(in, read_from, width * height, "input", in_bytes);
     check(out, written_to, width * height, "output", out_bytes);
     refuse_shared_memory(in, read_from, out, written_to);
+    if (impl.device.info.own_memory) {
+        run_staged(impl, in, out, progress);
+        return impl.save();
+    }
 
     const std::size_t least = impl.plan.sums_over;
     const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width / least * least, least, height);

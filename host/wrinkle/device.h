@@ -31,6 +31,7 @@ struct DeviceInfo {
     std::uint64_t largest_buffer = 0;  ///< bytes that all textures and volumes together may take
     int lanes = 1;                     ///< pixels a work-item evaluates unless a pass says otherwise: 1, 4, 8 or 16
     bool fp64 = false;
+    bool own_memory = false;  ///< not the host's: a discrete GPU's, to and from which planes are copied
 };
 
 /// Every OpenCL device of this machine that can say what it is, in the order of the ICD loader. Throws Error, naming
