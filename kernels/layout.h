@@ -55,15 +55,18 @@ typedef struct {
 
 // A light.
 typedef struct {
-    WR_SCALAR kind;                 // 0 sun, 1 point, 2 spot
-    WR_SCALAR color[3];             // times intensity; a sun's is the irradiance, the others' falls with distance^2
+    WR_SCALAR kind;                 // 0 sun, 1 point, 2 spot; with an extent: 3 sun, 4 sphere, 5 disc, 6 rectangle
+    // Times intensity: of a sun irradiance at normal incidence, of others radiant intensity, which falls with distance^2
+    WR_SCALAR color[3];
     WR_SCALAR position[3];          // relative to the eye, metres; not of a sun
     WR_SCALAR fade;                 // 1 / range^2, the range being where it has faded away; 0: it reaches everywhere
-    WR_SCALAR to_light[3];          // unit, world, against the way the light travels; of a sun and a spot
-    WR_SCALAR cos_inner, cos_outer; // of a spot: cosine of the angle up to which light is full, and from which none
+    // World, against the way the light travels; unit, but of a disc its radius, of a rectangle half its height
+    WR_SCALAR to_light[3];
+    // Of a spot: cosine of the angle up to which light is full, and from which none. Of a sun with an extent: tangent of
+    // half its angle. Of a sphere: radius. Of a disc or a rectangle: the vector along half its width
+    WR_SCALAR shape[3];
     // Numbers of the pictures that show what of this light is diffuse, and what is specular, from 1 on; 0: none does
     WR_SCALAR diffuse, specular;
-    WR_SCALAR unused;               // makes a light a whole cache line
 } wr_light;
 
 // Lighting of a frame.

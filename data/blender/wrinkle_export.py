@@ -125,8 +125,22 @@ def quoted(text):
 MOST_PICTURES = 16  # of lights, that wrinkle takes apart in one picture
 
 
+def extent_of(item):
+    """The shape of an area light. An ellipse becomes a rectangle of its area."""
+    lamp, scale = item.data, item.matrix_world.to_scale()
+    width = lamp.size * abs(scale.x)
+    height = (lamp.size_y if lamp.shape in ("RECTANGLE", "ELLIPSE") else lamp.size) * abs(scale.y)
+    width, height = max(width, 1e-4), max(height, 1e-4)
+    if lamp.shape in ("DISK", "ELLIPSE"):
+        if abs(width - height) < 1e-3 * width:
+            return {"kind": "disc", "radius": width / 2}
+        width, height = width * math.sqrt(math.pi) / 2, height * math.sqrt(math.pi) / 2
+    return {"kind": "rectangle", "size": [width, height], "up": list(item.matrix_world.normalized().col[1])[:3]}
+
+
 def light_values(item, beauty, light_groups):
-    """The keys of a [[light]]. Watts become radiant intensity: P / 4 pi. With light groups it has a picture of its own."""
+    """The keys of a [[light]]. Watts become radiant intensity: P / 4 pi, along an area light P / pi. With light groups it has
+    a picture of its own."""
     lamp = item.data
     values = {}
     energy = lamp.energy * 2 ** getattr(lamp, "exposure", 0)
@@ -136,12 +150,19 @@ def light_values(item, beauty, light_groups):
     along = [-item.matrix_world.normalized().col[2][k] for k in range(3)]
     if lamp.type == "SUN":
         values.update(kind="sun", direction=along, intensity=energy)
-    elif lamp.type in ("POINT", "SPOT", "AREA"):
+        if lamp.angle > 0:
+            values.update(angle=min(math.degrees(lamp.angle), 170.0))
+    elif lamp.type == "AREA":
+        values.update(position=list(item.matrix_world.translation), direction=along, intensity=energy / math.pi)
+        values.update(extent_of(item))
+    elif lamp.type in ("POINT", "SPOT"):
         values.update(
             kind="spot" if lamp.type == "SPOT" else "point",
             position=list(item.matrix_world.translation),
             intensity=energy / (4 * math.pi),
         )
+        if lamp.type == "POINT" and lamp.shadow_soft_size > 0:
+            values.update(kind="sphere", radius=lamp.shadow_soft_size)
         if lamp.type == "SPOT":
             outer = min(math.degrees(lamp.spot_size) / 2, 89.0)
             values.update(
@@ -367,7 +388,6 @@ def scene_toml(scene, pattern, layers, untranslated, notes, light_groups):
     if not plain:
         notes = notes + ["the world is textured: ambient is a guess"]
     lights = lamps_of(scene)
-    notes = notes + ["%s is an area light, which becomes a point" % i.name for i in lights if i.data.type == "AREA"]
     text = ["# Written by wrinkle_export.py of Blender " + bpy.app.version_string]
     text += ["# note: " + note for note in notes]
     text += ["# not translated: " + line for line in untranslated]
@@ -389,8 +409,7 @@ kind = "noise"
 frequency = 8                               # cells per metre
 scale = 0.02                                # metres of height""")
     text.append("\n[lighting]\nrelight = \"ratio\"")
-    known = plain and all(item.data.type != "AREA" for item in lights)  # then they are in the picture's units
-    if lights and known and not light_groups:
+    if lights and plain and not light_groups:  # then they are in the picture's units
         text.append("shadows = \"read\"")
     if any(ambient):
         text.append("ambient = " + numbers(ambient))

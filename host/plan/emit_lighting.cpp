@@ -5,6 +5,7 @@
 #include "plan/geometry_text.h"
 #include "plan/light_pictures.h"
 #include "plan/mask_text.h"
+#include "scene/light_extent.h"
 
 namespace wrinkle {
 
@@ -37,6 +38,11 @@ bool has_light_table(const Emitter& emitter) {
     const Lighting& lighting = emitter.scene.lighting;
     return emitter.options.write_normal && lighting.relight != Relight::off && lighting.table &&
            !lighting.table->empty();
+}
+
+bool lights_extend(const Emitter& emitter) {
+    const Lighting& lighting = emitter.scene.lighting;
+    return emitter.options.write_normal && lighting.relight != Relight::off && scene::any_extent(lighting);
 }
 
 double lights_of_pixel(const Emitter& emitter) {

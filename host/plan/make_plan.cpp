@@ -210,7 +210,8 @@ Plan make_plan(LayerKinds kinds, const Scene& scene, const Available& available,
     constexpr std::size_t kFewOutputs = 3;
     std::size_t outputs = 0;
     for (const Section& section : sections) outputs += section.outputs.size();
-    plan.source = (outputs <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
+    plan.source = std::string(outputs <= kFewOutputs ? "#define WR_FEW_OUTPUTS\n" : "") +
+                  (lights_extend(emitter) ? "#define WR_AREA_LIGHTS\n" : "") +
                   ("#include \"wrinkle.clh\"\n\n" +
                    (options.compiled_numbers ? numbers_text(plan, {scene, available.cryptomatte}) : std::string()) +
                    user_text(emitter) + emitter.helpers + bins);

@@ -153,6 +153,9 @@ Section emit_curvature();
 
 /// Whether the lighting has a table of lights.
 bool has_light_table(const Emitter& emitter);
+
+/// Whether lights of the scene have an extent, for which kernels are compiled.
+bool lights_extend(const Emitter& emitter);
 /// Lights that a pixel is expected to have: all without a table, and a few of it.
 double lights_of_pixel(const Emitter& emitter);
 /// What is known when the lighting is reached.

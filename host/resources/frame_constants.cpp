@@ -6,6 +6,7 @@
 #include "base/vec.h"
 #include "io/object_ids.h"
 #include "plan/light_pictures.h"
+#include "resources/light_constants.h"
 
 namespace wrinkle {
 
@@ -31,40 +32,6 @@ Mat4 ndc_from_screen(Size size) {
     m[1] = {0, -2.0 / size.height, 0, 1};
     m[2][2] = m[3][3] = 1;
     return m;
-}
-
-wr_light fill_light(const Light& light, const Vec3& eye) {
-    wr_light out{};
-    out.kind = static_cast<double>(light.kind);
-    put(out.color, scaled(light.color, light.intensity));
-    put(out.position, subtract(light.position, eye));
-    put(out.to_light, scaled(normalize(light.direction), -1));
-    out.cos_outer = std::cos(light.outer_angle);
-    out.cos_inner = std::max(std::cos(light.inner_angle), out.cos_outer + 1e-6);
-    if (light.range) out.fade = 1 / (*light.range * *light.range);
-    return out;
-}
-
-/// Adds the irradiance / pi of a sky as coefficients of wr_sky's polynomials. Its radiance depends on the elevation
-/// only, so the harmonics are zonal: c_l = (integral of radiance P_l over the sine) and the factors of a clamped cosine
-/// [Ramamoorthi and Hanrahan 2001] make them c_0 / 2 + c_1 t + 5/8 c_2 P_2(t), t the cosine to the zenith.
-void add_sky(double (&sky)[27], const Light& light) {
-    const Vec3 up = normalize(light.up);
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double horizon = light.horizon[c] * light.intensity, ground = light.ground[c] * light.intensity;
-        const double rise = light.zenith[c] * light.intensity - horizon;
-        const double once = horizon / 2 + rise / 3 - ground / 2, twice = 5.0 / 8 * rise / 8;
-        const double terms[] = {(horizon + rise / 2 + ground) / 2,
-                                once * up[0],
-                                once * up[1],
-                                once * up[2],
-                                3 * twice * up[0] * up[1],
-                                3 * twice * up[1] * up[2],
-                                3 * twice * up[2] * up[0],
-                                0.75 * twice * (up[0] * up[0] - up[1] * up[1]),
-                                0.25 * twice * (3 * up[2] * up[2] - 1)};
-        for (std::size_t k = 0; k < 9; ++k) sky[3 * k + c] += terms[k];
-    }
 }
 
 Vec3 eye_of(const Mat4& to_world) { return {to_world[0][3], to_world[1][3], to_world[2][3]}; }

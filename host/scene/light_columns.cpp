@@ -1,6 +1,9 @@
 #include "scene/light_columns.h"
 
+#include <algorithm>
+
 #include "scene/column_values.h"
+#include "scene/light_extent.h"
 
 namespace wrinkle::scene {
 namespace {
@@ -20,12 +23,22 @@ std::string angle(double value, double& radians) {
     return problem;
 }
 
+constexpr std::pair<const char*, LightKind> kinds[] = {{"point", LightKind::point},
+                                                       {"spot", LightKind::spot},
+                                                       {"sphere", LightKind::sphere},
+                                                       {"disc", LightKind::disc},
+                                                       {"rectangle", LightKind::rectangle}};
+
 std::string kind_of(std::string_view field, LightKind& out) {
-    const bool point = field == "point";
-    if (!point && field != "spot")
-        return "must be one of \"point\", \"spot\"; lights of other kinds are [[light]] of the scene";
-    out = point ? LightKind::point : LightKind::spot;
-    return {};
+    for (const auto& [name, kind] : kinds)
+        if (field == name) return out = kind, std::string{};
+    return "must be one of \"point\", \"spot\", \"sphere\", \"disc\", \"rectangle\"; suns and skies are [[light]] of "
+           "the scene";
+}
+
+std::string name_of(LightKind kind) {
+    const auto* const row = std::ranges::find(kinds, kind, &std::pair<const char*, LightKind>::second);
+    return row == std::end(kinds) ? "" : row->first;
 }
 
 #define ANGLE(NAME, MEMBER)                                                                                    \
@@ -42,9 +55,9 @@ constexpr Column<Light> columns[] = {
     {"kind", "kind", 0, Field::name, [](std::string_view f, Light& l) { return kind_of(f, l.kind); }, nullptr,
      [](const Light& l) {
          LightKind ignored{};
-         return kind_of(l.kind == LightKind::point ? "point" : l.kind == LightKind::spot ? "spot" : "", ignored);
+         return kind_of(name_of(l.kind), ignored);
      },
-     [](const Light& l) { return std::string(l.kind == LightKind::point ? "point" : "spot"); }},
+     [](const Light& l) { return name_of(l.kind); }},
     VECTOR("r", "g", "b", "color", color, not_negative, not_negative),
     NUMBER("intensity", intensity, not_negative),
     {"range", "range", 0, Field::number, [](std::string_view f, Light& l) { return range_of(parsed(f), l.range); },
@@ -55,15 +68,24 @@ constexpr Column<Light> columns[] = {
     VECTOR("direction_x", "direction_y", "direction_z", "direction", direction, any_number, any_number),
     ANGLE("inner_angle", inner_angle),
     ANGLE("outer_angle", outer_angle),
+    NUMBER("radius", radius, not_negative),
+    RANGED("width", "size", 2, size[0], not_negative, not_negative),
+    RANGED("height", "size", 2, size[1], not_negative, not_negative),
+    VECTOR("up_x", "up_y", "up_z", "up", up, any_number, any_number),
 };
 
 void check_together(const Light& light, const Wrong& wrong) {
     if (!light.picture.empty() || !light.diffuse.empty() || !light.specular.empty())
         wrong({}, "a light of a table has no picture of its own; make it a [[light]] of the scene");
-    if (light.kind != LightKind::spot) return;
+    if (light.kind == LightKind::disc && !(light.radius > 0)) wrong({"radius"}, "must be positive for a disc");
+    if (light.kind == LightKind::rectangle && !(light.size[0] > 0 && light.size[1] > 0))
+        wrong({"width", "height"}, "must be positive for a rectangle");
+    if (light.kind == LightKind::rectangle && !crosses(light.up, light.direction))
+        wrong({"up_x", "up_y", "up_z"}, "must not be zero or along the direction; it is the way the height goes");
+    if (light.kind == LightKind::point || light.kind == LightKind::sphere) return;
     if (light.direction == Vec3{})
         wrong({"direction_x", "direction_y", "direction_z"}, "must not be zero; it is the way the light travels");
-    if (!(light.inner_angle < light.outer_angle))
+    if (light.kind == LightKind::spot && !(light.inner_angle < light.outer_angle))
         wrong({"inner_angle", "outer_angle"},
               fmt::format("must leave inner_angle ({:.4g}) less than outer_angle ({:.4g} degrees from the axis)",
                           to_degrees(light.inner_angle), to_degrees(light.outer_angle)));

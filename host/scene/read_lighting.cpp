@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "scene/kinds.h"
 #include "scene/light_columns.h"
+#include "scene/light_extent.h"
 #include "scene/light_json.h"
 #include "scene/readers.h"
 #include "scene/row_reader.h"
@@ -47,17 +48,33 @@ void read_range(Table& table, Light& light) {
     if ((!table.visits() || light.range) && table.read("range", range, positive)) light.range = range;
 }
 
+void read_sky_picture(Table& table, Light& light) {
+    for (const char* key : {"zenith", "horizon", "ground"})
+        if (table.has(key)) table.complain(key, "has no effect beside texture, which shows all of the sky");
+    table.read_degrees("rotation", light.rotation);
+    if (table.visits()) {
+        for (Vec3 numbers : *light.harmonics) table.read("texture", numbers);
+    } else if (table.read_file("texture", light.texture)) {
+        try {
+            light.harmonics = load_sky(light.texture);
+        } catch (const Error& error) { table.complain("texture", fmt::format("cannot be used:\n{}", error.what())); }
+    }
+}
+
 void read_sky(Table& table, Light& light) {
     light.kind = LightKind::sky;
     if (table.read("up", light.up) && light.up == Vec3{})
         table.complain("up", "must not be zero; it is where the zenith is");
     light.up = normalize(light.up);
+    table.read("intensity", light.intensity, not_negative);
+    for (const char* key : {"texture", "rotation", "zenith", "horizon", "ground"}) table.know(key);
+    if (table.visits() ? light.harmonics.has_value() : table.has("texture")) return read_sky_picture(table, light);
+    if (table.has("rotation")) table.complain("rotation", "has no effect without texture, which it turns");
     table.require("zenith");
     table.read("zenith", light.zenith, not_negative);
     light.horizon = table.visits() ? light.horizon : light.zenith;
     table.read("horizon", light.horizon, not_negative);
     table.read("ground", light.ground, not_negative);
-    table.read("intensity", light.intensity, not_negative);
 }
 
 void read_sun(Table& table, Light& light) {
@@ -65,22 +82,25 @@ void read_sun(Table& table, Light& light) {
     read_color(table, light);
     read_pictures(table, light);
     read_direction(table, light);
+    table.read_degrees("angle", light.angle, {.low = 0, .high = 170});
+}
+
+/// What lights at a place share.
+void read_lamp(Table& table, Light& light) {
+    read_color(table, light);
+    read_pictures(table, light);
+    read_position(table, light);
+    read_range(table, light);
 }
 
 void read_point(Table& table, Light& light) {
     light.kind = LightKind::point;
-    read_color(table, light);
-    read_pictures(table, light);
-    read_position(table, light);
-    read_range(table, light);
+    read_lamp(table, light);
 }
 
 void read_spot(Table& table, Light& light) {
     light.kind = LightKind::spot;
-    read_color(table, light);
-    read_pictures(table, light);
-    read_position(table, light);
-    read_range(table, light);
+    read_lamp(table, light);
     read_direction(table, light);
     table.read_degrees("inner_angle", light.inner_angle, {.low = 0, .high = 180});
     table.read_degrees("outer_angle", light.outer_angle, {.low = 0, .high = 180});
@@ -93,7 +113,36 @@ void read_spot(Table& table, Light& light) {
     }
 }
 
-constexpr Kind<Light> kinds[] = {{"sun", read_sun}, {"point", read_point}, {"spot", read_spot}, {"sky", read_sky}};
+void read_sphere(Table& table, Light& light) {
+    light.kind = LightKind::sphere;
+    read_lamp(table, light);
+    table.require("radius");
+    table.read("radius", light.radius, not_negative);
+}
+
+void read_disc(Table& table, Light& light) {
+    light.kind = LightKind::disc;
+    read_lamp(table, light);
+    read_direction(table, light);
+    table.require("radius");
+    table.read("radius", light.radius, positive);
+}
+
+void read_rectangle(Table& table, Light& light) {
+    light.kind = LightKind::rectangle;
+    read_lamp(table, light);
+    read_direction(table, light);
+    table.require("size");
+    table.read("size", light.size, positive);
+    table.require("up");
+    const bool sound = table.read("up", light.up) && !table.is_bad("direction");
+    if (sound && !crosses(light.up, light.direction))
+        table.complain("up", "must not be zero or along direction; it is the way the height goes");
+}
+
+constexpr Kind<Light> kinds[] = {
+    {"sun", read_sun},       {"point", read_point}, {"spot", read_spot},          {"sky", read_sky},
+    {"sphere", read_sphere}, {"disc", read_disc},   {"rectangle", read_rectangle}};
 
 /// Checks a table of a scene in memory, and says what of it is compiled in.
 void visit_light_table(Table& table, const Lighting& lighting) {
@@ -109,6 +158,7 @@ void visit_light_table(Table& table, const Lighting& lighting) {
 }
 
 void read_light_table(Table& table, Lighting& out) {
+    table.compiled_in("lights with an extent", any_extent(out));
     if (table.visits()) return visit_light_table(table, out);
     if (!table.read_file("lights", out.table_file)) return;
     if (out.relight == Relight::off && !table.is_bad("relight"))

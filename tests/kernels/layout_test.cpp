@@ -101,8 +101,8 @@ TEST(Layout, Projector) {
 TEST(Layout, Light) {
     const auto s = counted<wr_light>();
     std::vector<Member> members;
-    MEMBER(kind), MEMBER(color), MEMBER(position), MEMBER(fade), MEMBER(to_light), MEMBER(cos_inner);
-    MEMBER(cos_outer), MEMBER(diffuse), MEMBER(specular), MEMBER(unused);
+    MEMBER(kind), MEMBER(color), MEMBER(position), MEMBER(fade), MEMBER(to_light), MEMBER(shape);
+    MEMBER(diffuse), MEMBER(specular);
     check_layout("wr_light", members, sizeof s);
 }
 

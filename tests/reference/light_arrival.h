@@ -37,7 +37,7 @@ Arrival<T> arrival(const Light& light, Vec<T> p) {
     const T r2 = dot(to, to);
     if (!(r2 > 0)) return {};
     const Vec<T> power = full * range_window(light.range, std::sqrt(r2));
-    if (light.kind == LightKind::point) return {l, power / r2};
+    if (light.kind != LightKind::spot) return {l, power / r2};
     const T outer = std::cos(T(light.outer_angle)), inner = std::cos(T(light.inner_angle)), c = -dot(l, axis);
     const T t = inner == outer ? T(c >= outer) : saturate((c - outer) / (inner - outer));
     return {l, power * (t * t * (3 - 2 * t) / r2)};

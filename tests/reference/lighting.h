@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/reference/light_arrival.h"
+#include "tests/reference/area_light.h"
 #include "tests/reference/vec.h"
 #include "wrinkle/scene.h"
 
@@ -148,13 +148,14 @@ Lobes<T> lobes_by(const std::string& picture, const Lighting& lighting, Vec<T> n
     const Vec<T> mirror = mirror_normal(n, base, v);
     const auto add = [&](const Light& light) {
         if (light.kind == LightKind::sky) return;
-        const Arrival<T> a = arrival(light, p);
-        const T nl = std::max(dot(n, a.direction), T(0)), ml = std::max(dot(mirror, a.direction), T(0));
-        const T specular = ml > 0 ? ml * mirrored(mirror, v, a.direction, s) : T(0);
-        const Vec<T> arrives = a.irradiance * terminator(n, base, a.direction);
-        if (diffuse_picture(light) == picture)
-            sum.diffuse = sum.diffuse + times(s.albedo * (nl / std::numbers::pi_v<T>), arrives);
-        if (specular_picture(light) == picture) sum.specular = sum.specular + arrives * specular;
+        each_arrival(light, p, [&](const Arrival<T>& a) {
+            const T nl = std::max(dot(n, a.direction), T(0)), ml = std::max(dot(mirror, a.direction), T(0));
+            const T specular = ml > 0 ? ml * mirrored(mirror, v, a.direction, s) : T(0);
+            const Vec<T> arrives = a.irradiance * terminator(n, base, a.direction);
+            if (diffuse_picture(light) == picture)
+                sum.diffuse = sum.diffuse + times(s.albedo * (nl / std::numbers::pi_v<T>), arrives);
+            if (specular_picture(light) == picture) sum.specular = sum.specular + arrives * specular;
+        });
     };
     std::ranges::for_each(lighting.lights, add);
     if (lighting.table) std::ranges::for_each(*lighting.table, add);

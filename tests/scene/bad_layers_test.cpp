@@ -158,7 +158,9 @@ TEST_F(BadLayers, KeysOfAnotherKind) {
     expect_problem_with(
         "[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\nposition = [0, 0, "
         "1]\n",
-        10, {"[[light]] 1", "does not belong to kind \"sun\" but to \"point\", \"spot\""});
+        10,
+        {"[[light]] 1",
+         "does not belong to kind \"sun\" but to \"point\", \"spot\", \"sphere\", \"disc\", \"rectangle\""});
 }
 
 }  // namespace

@@ -67,9 +67,15 @@ TEST_F(LightTable, NamesFileLineAndColumnOfAMistake) {
     expect_refused("a.csv", head + "1,2,,1,1,\n", {"a.csv:3: column \"z\" is empty"});
     expect_refused("a.csv", head + "1,2,3,1,-1,\n",
                    {"a.csv:3: column \"r\" is \"-1\"; it must be 0 or a positive number"});
-    expect_refused("a.csv", head + "1,2,3,1,1,sun\n",
-                   {"column \"kind\" is \"sun\"", "\"point\", \"spot\"", "[[light]]"});
-    expect_refused("a.csv", "x,y,z,radius\n1,2,3,4\n", {"a.csv:1: unknown column \"radius\""});
+    expect_refused(
+        "a.csv", head + "1,2,3,1,1,sun\n",
+        {"column \"kind\" is \"sun\"", "\"point\", \"spot\", \"sphere\", \"disc\", \"rectangle\"", "[[light]]"});
+    expect_refused("a.csv", "x,y,z,radios\n1,2,3,4\n", {"a.csv:1: unknown column \"radios\""});
+    expect_refused("a.csv", "x,y,z,kind,radius\n1,2,3,disc,\n",
+                   {"a.csv:2: ", "\"radius\" must be positive for a disc"});
+    expect_refused("a.csv",
+                   "x,y,z,kind,width,height,up_x,up_y,up_z\n1,2,3,rectangle,1,0,1,0,0\n1,2,3,rectangle,1,1,0,0,2\n",
+                   {"a.csv:2: columns \"width\", \"height\" must be positive", "a.csv:3: ", "along the direction"});
     expect_refused("a.csv", "x,y,z,kind,inner_angle,outer_angle\n1,2,3,spot,30,30\n",
                    {"a.csv:2: columns \"inner_angle\", \"outer_angle\" must leave inner_angle"});
     expect_refused("a.csv", "", {"a.csv", "holds no table"});
@@ -113,11 +119,51 @@ TEST_F(LightTable, OfCodeIsCheckedLikeOneOfAFile) {
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     expect_refused({.kind = LightKind::sun}, {"row 0: \"kind\" must be one of"});
+    expect_refused({.kind = LightKind::disc}, {"row 0: ", "\"radius\" must be positive"});
     expect_refused({.kind = LightKind::point, .range = -1}, {"row 0: \"range\" must be a positive number"});
     expect_refused({.kind = LightKind::point, .range = nan}, {"row 0: \"range\""});
     expect_refused({.kind = LightKind::point, .position = {0, nan, 0}}, {"row 0: element 2 of \"position\""});
     expect_refused({.kind = LightKind::spot, .direction = {}}, {"row 0: \"direction\" must not be zero"});
     expect_refused({.kind = LightKind::point, .picture = "sun"}, {"row 0: ", "picture"});
+}
+
+TEST_F(LightTable, HoldsLightsWithAnExtent) {
+    const auto expect = [](const std::vector<Light>& lights) {
+        ASSERT_EQ(lights.size(), 3u);
+        EXPECT_EQ(lights[0].kind, LightKind::sphere);
+        EXPECT_EQ(lights[0].radius, 0.5);
+        EXPECT_EQ(lights[1].kind, LightKind::disc);
+        EXPECT_EQ(lights[1].direction, (Vec3{1, 0, 0}));
+        EXPECT_EQ(lights[2].kind, LightKind::rectangle);
+        EXPECT_EQ(lights[2].size, (std::array<double, 2>{2, 3}));
+        EXPECT_EQ(lights[2].up, (Vec3{0, 1, 0}));
+    };
+    expect(load_lights(
+        write("lamps.csv",
+              "x,y,z,kind,radius,direction_x,direction_y,direction_z,width,height,up_x,up_y,up_z\n"
+              "1,2,3,sphere,0.5,,,,,,,,\n1,2,3,disc,0.25,1,0,0,,,,,\n1,2,3,rectangle,,0,0,-1,2,3,0,1,0\n")));
+    expect(
+        load_lights(write("lamps.toml",
+                          "[[light]]\nkind = \"sphere\"\nposition = [1, 2, 3]\nradius = 0.5\n"
+                          "[[light]]\nkind = \"disc\"\nposition = [1, 2, 3]\nradius = 0.25\ndirection = [1, 0, 0]\n"
+                          "[[light]]\nkind = \"rectangle\"\nposition = [1, 2, 3]\nsize = [2, 3]\nup = [0, 1, 0]\n")));
+}
+
+TEST_F(LightTable, LightsByThemselvesHaveExtentsToo) {
+    const std::string lit = "[lighting]\nrelight = \"lit\"\n[[light]]\nposition = [0, 0, 1]\n";
+    const std::string flat = lit + "direction = [0, 0, -1]\nkind = ";
+    const Light light = load_with(flat + "\"rectangle\"\nsize = [2, 3]\nup = [0, 1, 0.5]\n").lighting.lights[0];
+    EXPECT_EQ(light.size, (std::array<double, 2>{2, 3}));
+    check(load_with(flat + "\"disc\"\nradius = 2\n"));
+    check(load_with(lit + "kind = \"sphere\"\nradius = 0\n"));
+    const std::string sun = "[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n";
+    EXPECT_NEAR(load_with(sun + "angle = 0.5\n").lighting.lights[0].angle, 0.5 * degree, 1e-15);
+    expect_problem_with(sun + "angle = 175\n", 10, {"\"angle\" in [[light]] 1 must be at least 0 and at most 170"});
+    expect_problem_with(flat + "\"disc\"\nradius = 0\n", 11, {"\"radius\" in [[light]] 1 must be greater than 0"});
+    expect_problem_with(flat + "\"disc\"\n", 7, {"[[light]] 1 needs the key \"radius\""});
+    expect_problem_with(flat + "\"rectangle\"\nsize = [2, 3]\nup = [0, 0, 2]\n", 12,
+                        {"\"up\" in [[light]] 1 must not be zero or along direction"});
+    expect_problem_with(flat + "\"rectangle\"\nsize = [2, -3]\nup = [0, 1, 0]\n", 11, {"\"size\"", "greater than 0"});
 }
 
 TEST_F(LightTable, LightsByThemselvesHaveRangesToo) {
@@ -127,8 +173,10 @@ TEST_F(LightTable, LightsByThemselvesHaveRangesToo) {
     expect_problem_with(point + "range = 0\n", 10, {"\"range\" in [[light]] 1 must be greater than 0"});
     expect_problem_with(point + "range = -1.5\n", 10, {"\"range\" in [[light]] 1 must be greater than 0"});
     expect_problem_with(point + "range = nan\n", 10, {"\"range\" in [[light]] 1 must be a finite number"});
-    expect_problem_with("[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\nrange = 2\n",
-                        10, {"\"range\"", "does not belong to kind \"sun\" but to \"point\", \"spot\""});
+    expect_problem_with(
+        "[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\nrange = 2\n", 10,
+        {"\"range\"",
+         "does not belong to kind \"sun\" but to \"point\", \"spot\", \"sphere\", \"disc\", \"rectangle\""});
 }
 
 }  // namespace

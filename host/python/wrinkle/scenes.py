@@ -54,7 +54,7 @@ class Texture(Keys):
 
 
 class Light(Keys):
-    """A light: kind ("sun", "point", "spot"), color, intensity, direction (the way it travels), position, ..."""
+    """A light: kind ("sun", "point", "spot", "sphere", "disc", "rectangle", "sky"), color, intensity, direction (the way it travels), position, ..."""
 
     def __init__(self, kind: str, **keys):
         super().__init__(kind=kind, **keys)

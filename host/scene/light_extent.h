@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+
+#include "base/vec.h"
+#include "wrinkle/lighting.h"
+
+namespace wrinkle::scene {
+
+/// Whether two directions span a plane.
+inline bool crosses(const Vec3& a, const Vec3& b) {
+    const double square = dot(a, a) * dot(b, b);
+    return dot(cross(a, b), cross(a, b)) > 1e-12 * square;
+}
+
+/// Whether a light is lit as one with an extent.
+inline bool has_extent(const Light& light) {
+    switch (light.kind) {
+        case LightKind::sun:
+            return light.angle > 0;
+        case LightKind::sphere:
+            return light.radius > 0;
+        case LightKind::disc:
+        case LightKind::rectangle:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// Whether any light of a scene is: kernels are compiled for that.
+inline bool any_extent(const Lighting& lighting) {
+    return std::ranges::any_of(lighting.lights, has_extent) ||
+           (lighting.table && std::ranges::any_of(*lighting.table, has_extent));
+}
+
+}  // namespace wrinkle::scene

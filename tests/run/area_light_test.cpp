@@ -1,0 +1,76 @@
+// Scenes of lights with an extent: compiled in where there are some, and as bright as brute force over them.
+#include "layers/kinds.h"
+#include "run/pass_impl.h"
+#include "tests/run/light_frames.h"
+
+namespace wrinkle::test {
+namespace {
+
+std::vector<Light> extended() {
+    return {
+        Light{.intensity = 2, .direction = {-0.6, 0, -0.8}, .angle = 0.3},
+        Light{.kind = LightKind::sphere, .intensity = 6, .position = {1, -1, 2}, .range = 30, .radius = 0.4},
+        Light{
+            .kind = LightKind::disc, .intensity = 9, .position = {-2, 1, 2}, .direction = {0.4, 0, -1}, .radius = 0.5},
+        Light{.kind = LightKind::rectangle,
+              .color = {0.5, 1, 1},
+              .intensity = 6,
+              .position = {0, 0, 3},
+              .direction = {0, 0, -1},
+              .up = {0, 1, 0},
+              .size = {2, 0.5}}};
+}
+
+Scene scene_of(std::vector<Light> lights) {
+    Scene scene = lit_scene({});
+    scene.lighting.table = nullptr;
+    scene.lighting.lights = std::move(lights);
+    scene.layers[0].bump = ConstantLayer{{0.2, -0.1, 0}};
+    return scene;
+}
+
+HostFrame tilted_plane() {
+    HostFrame frame(plane_frame(test_camera(), {19, 11}, normalize(V{0.1, -0.2, 1})), test_camera());
+    for (const char* color : {"r", "g", "b"}) frame.add(std::string("beauty.") + color, 0.5f);
+    return frame;
+}
+
+TEST(AreaLights, LightAsBruteForceDoes) {
+    const HostFrame frame = tilted_plane();
+    for (const Relight relight : {Relight::lit, Relight::ratio}) {
+        Scene scene = scene_of(extended());
+        scene.lighting.relight = relight;
+        scene.lighting.roughness = 0.4;
+        const Spread off = lit_error(evaluate_on(frame, scene), Truth(frame, scene));
+        expect_within(relight == Relight::lit ? "lit" : "ratio", off, {2e-3, 1e-2, 2e-2}, "relative");
+    }
+}
+
+TEST(AreaLights, OfNoExtentAreThoseThatHaveNone) {
+    const HostFrame frame = tilted_plane();
+    std::vector<Light> points{Light{.direction = {-0.6, 0, -0.8}},
+                              Light{.kind = LightKind::point, .intensity = 6, .position = {1, -1, 2}}};
+    std::vector<Light> none = points;
+    none[1].kind = LightKind::sphere;
+    Pass before = evaluate(device(), scene_of(points), frame.frame),
+         after = evaluate(device(), scene_of(none), frame.frame);
+    EXPECT_EQ(before.impl().plan.source, after.impl().plan.source);
+    EXPECT_EQ(before.impl().plan.source.find("WR_AREA_LIGHTS"), std::string::npos);
+    EXPECT_EQ(largest_difference(run(before, frame), run(after, frame)), 0);
+    std::vector<Light> little = points;
+    little[0].angle = 1e-4, little[1].kind = LightKind::sphere, little[1].radius = 1e-4;
+    EXPECT_LT(largest_difference(run(before, frame), evaluate_on(frame, scene_of(little))), 1e-4);
+    EXPECT_THROW(before.set_parameters(scene_of(little)), Error) << "whether there are any is compiled in";
+}
+
+TEST(AreaLights, OfATableAreTheSame) {
+    const HostFrame frame = tilted_plane();
+    std::vector<Light> lights = extended();
+    lights.erase(lights.begin());
+    Scene table = scene_of({});
+    table.lighting.table = std::make_shared<const std::vector<Light>>(lights);
+    EXPECT_LT(largest_difference(evaluate_on(frame, table), evaluate_on(frame, scene_of(lights))), 1e-5);
+}
+
+}  // namespace
+}  // namespace wrinkle::test
