@@ -44,7 +44,7 @@ json description(const Device& device) {
             {"memory_bytes", device.info.memory},
             {"largest_allocation_bytes", size(d.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>())},
             {"largest_group", size(d.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>())},
-            {"memory_of_host", d.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0},
+            {"own_memory", device.info.own_memory},
             {"denormals", (d.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_DENORM) != 0},
             {"lanes", device.info.lanes},
             {"fp64", device.info.fp64}};

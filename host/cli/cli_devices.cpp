@@ -28,6 +28,7 @@ void devices(bool json) {
                             {"driver", device.driver},
                             {"compute_units", device.compute_units},
                             {"memory_bytes", device.memory},
+                            {"own_memory", device.own_memory},
                             {"lanes", device.lanes},
                             {"fp64", device.fp64}});
         fmt::print("{}\n", json_text(rows));

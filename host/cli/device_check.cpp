@@ -102,7 +102,7 @@ void print_device(const json& d) {
         "denormal numbers: {}\n\n",
         d["compute_units"].get<unsigned>(), d["memory_bytes"].get<double>() / (1u << 30),
         d["largest_allocation_bytes"].get<double>() / (1u << 30), d["largest_group"].get<unsigned>(),
-        d["memory_of_host"] ? "the host's" : "its own", d["lanes"].get<int>(), d["fp64"] ? "yes" : "no",
+        d["own_memory"] ? "its own" : "the host's", d["lanes"].get<int>(), d["fp64"] ? "yes" : "no",
         d["denormals"] ? "yes" : "no");
     std::fflush(stdout);
 }

@@ -33,6 +33,7 @@ void bind_devices(nb::module_& module) {
         .def_ro("memory", &DeviceInfo::memory, "bytes")
         .def_ro("lanes", &DeviceInfo::lanes, "pixels a work-item evaluates")
         .def_ro("fp64", &DeviceInfo::fp64)
+        .def_ro("own_memory", &DeviceInfo::own_memory, "not the host's: a discrete GPU's")
         .def("__repr__", [](const DeviceInfo& d) { return "<wrinkle.DeviceInfo " + d.platform + ": " + d.name + ">"; });
     module.def("devices", &list_devices, "Every OpenCL device of this machine. Raises Error when there is none.");
     nb::class_<Device>(module, "Device", "An OpenCL device to work on: copies share the context and the queue.")
