@@ -37,9 +37,10 @@ void measure_storage(const Device& device, Size size, Run& run);
 /// branches; without skipping pixels; without footprints; without fusing. Group "ablation".
 void measure_ablation(const Device& device, const std::filesystem::path& file, Size size, Run& run);
 
-/// Layers on a ground to the horizon at 1 to 16 points of a pixel's area, and by brute force at 2 x 2 to 8 x 8, whose
-/// averaging is not timed; and height and normal maps by OpenImageIO's TextureSystem. Errors are against the mean over
-/// each pixel's area, by the reference at 1024 points. Group "area".
+/// Layers on a ground to the horizon, a wall along the view and a ball at 1 to 16 points of a pixel's area, and by
+/// brute force at 2 x 2 to 8 x 8, whose averaging is not timed; and height and normal maps on the ground by
+/// OpenImageIO's TextureSystem. Errors are against the mean over each pixel's area, by the reference at 1024 points.
+/// Group "area".
 void measure_area(const Device& device, Run& run);
 
 /// One layer over a whole frame of half the width and height. Noise: 2, 4 and 8 octaves, analytic gradients and
