@@ -91,7 +91,7 @@ std::vector<AreaSurface> area_surfaces() {
     std::vector<AreaSurface> all{{"ground", large, seen(large, {0, -6, 1.6}, {0, 0, 0.6}, 0.6981317007977318), ground},
                                  {"wall", small, seen(small, {1.2, -6, 0.4}, {0, 0, 0.3}, 0.6), wall},
                                  {"ball", small, seen(small, {0, -5, 0.3}, {0, 0, 0}, 0.42), ball}};
-    all[1].decal_x = {0, 1, 0}, all[1].decal_y = {0, 0, 1};
+    all[1].decal_x = {0, 1, 0}, all[1].decal_y = {0, 0, 1}, all[1].decal_center = {0, -4, 0};
     all[2].decal_x = {1, 0, 0}, all[2].decal_y = {0, 0, 1}, all[2].decal_center = {0, -1, 0};
     all[2].volume_side = 2.4, all[2].volume_middle = 0.5;
     return all;
