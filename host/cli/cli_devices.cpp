@@ -48,8 +48,6 @@ void devices(bool json) {
     for (const std::string& driver : broken_drivers()) fmt::print("not loaded: {}\n", driver);
 }
 
-}  // namespace
-
 struct DevicesArguments {
     bool json = false, check = false;
     WantedCheck wanted;
@@ -64,6 +62,8 @@ void run(const DevicesArguments& arguments) {
     if (arguments.check) return check_device(arguments.wanted, arguments.json);
     devices(arguments.json);
 }
+
+}  // namespace
 
 void add_devices(CLI::App& app) {
     auto arguments = std::make_shared<DevicesArguments>();
