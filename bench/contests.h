@@ -37,6 +37,10 @@ void measure_storage(const Device& device, Size size, Run& run);
 /// branches; without skipping pixels; without footprints; without fusing. Group "ablation".
 void measure_ablation(const Device& device, const std::filesystem::path& file, Size size, Run& run);
 
+/// A scene without its lighting, with it, and with suns as wide as the sun is, at one point of each pixel; and the
+/// first two at as many points as the scene says. Errors are those of normals. Group "lighting".
+void measure_lighting(const Device& device, const std::filesystem::path& file, Size size, Run& run);
+
 /// Layers on a ground to the horizon, a wall along the view and a ball at 1 to 16 points of a pixel's area, and by
 /// brute force at 2 x 2 to 8 x 8, whose averaging is not timed; and height and normal maps on the ground by
 /// OpenImageIO's TextureSystem. Errors are against the mean over each pixel's area, by the reference at 1024 points.

@@ -29,7 +29,13 @@ using namespace wrinkle;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> all_parts{"memory",  "functions", "demo", "scenes", "decals", "volume", "variants",
-                                         "storage", "ablation",  "bars", "sizes",  "area",   "lights"};
+                                         "storage", "ablation",  "bars", "sizes",  "area",   "lights", "lighting"};
+/// Without lighting: a minute for a figure that changes with the demo's lights only.
+const std::vector<std::string> usual_parts = [] {
+    std::vector<std::string> parts = all_parts;
+    std::erase(parts, "lighting");
+    return parts;
+}();
 const std::vector<std::string> quick_parts{"memory", "functions", "demo", "scenes", "storage"};
 
 struct Arguments {
@@ -82,7 +88,7 @@ CLI::App& describe(CLI::App& app, Arguments& a) {
 
 void measure(const Device& device, const Arguments& a, bench::Run& run) {
     const auto wanted = [&](const char* part) {
-        const std::vector<std::string>& parts = !a.only.empty() ? a.only : a.quick ? quick_parts : all_parts;
+        const std::vector<std::string>& parts = !a.only.empty() ? a.only : a.quick ? quick_parts : usual_parts;
         return std::ranges::find(parts, part) != parts.end();
     };
     const Size size = a.quick ? Size{960, 540} : a.size;
@@ -113,6 +119,7 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
     }
     if (wanted("decals")) bench::measure_decals(device, size, a.quick, run);
     if (wanted("lights")) bench::measure_lights(device, size, a.quick, run);
+    if (wanted("lighting")) bench::measure_lighting(device, demo, size, run);
     if (wanted("volume")) bench::measure_volumes(device, a.quick ? 64 : 256, run);
     if (wanted("sizes"))
         bench::measure_sizes(device, demo, {{1280, 800}, {3840, 2160}, {7680, 4320}, {15360, 8640}}, run);

@@ -170,6 +170,27 @@ TEST(Relit, MetalStaysAsItIs) {
             EXPECT_EQ(got.at(std::string("lit.") + color)[i] == 0.5f, i % 2 == 0) << i;
 }
 
+TEST(Relit, MetalOfItsPassStaysAsItIsByItsShare) {
+    HostFrame frame(plane_frame(test_camera(), {19, 5}, normalize(V{0.1, -0.2, 1})), test_camera());
+    for (const char color : {'r', 'g', 'b'}) {
+        frame.add(std::string("beauty.") + color, 0.5f);
+        frame.add(std::string("albedo.") + color, 0);  // says nothing where the pass does
+    }
+    std::vector<float>& metallic = frame.add("metallic");
+    for (std::size_t i = 0; i < metallic.size(); ++i) metallic[i] = static_cast<float>(i % 3) / 2;
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].bump = ConstantLayer{{0.5, 0, 0}};
+    scene.lighting.relight = Relight::ratio;
+    scene.lighting.lights = {Light{.direction = {-0.6, 0, -0.8}}};
+    const Pixels got = evaluate_on(frame, scene);
+    const Truth truth(frame, scene);
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        EXPECT_EQ(got.at("lit.g")[i] == 0.5f, i % 3 == 2) << i;
+        EXPECT_NEAR(got.at("lit.g")[i], truth.lit[i].y, 1e-5) << i;
+    }
+}
+
 /// A tilted plane of grey, lit by a sun that a bump turns away from.
 HostFrame grey_plane() {
     HostFrame frame(plane_frame(test_camera(), {19, 5}, normalize(V{0.1, -0.2, 1})), test_camera());
