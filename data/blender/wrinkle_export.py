@@ -387,6 +387,12 @@ def scene_toml(scene, pattern, layers, untranslated, notes, light_groups):
     ambient, plain = world_radiance(scene.world)
     if not plain:
         notes = notes + ["the world is textured: ambient is a guess"]
+    narrow = [item.name for item in scene.objects
+              if item.type == "LIGHT" and item.data.type == "AREA" and item.data.spread < math.pi - 0.01]
+    if narrow:
+        notes = notes + ["area lights are taken to shine widely, with a spread of 180 degrees, but not so in the scene: "
+                         + ", ".join(narrow)]
+        plain = False
     lights = lamps_of(scene)
     text = ["# Written by wrinkle_export.py of Blender " + bpy.app.version_string]
     text += ["# note: " + note for note in notes]

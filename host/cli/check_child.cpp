@@ -15,6 +15,8 @@
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -139,9 +141,15 @@ CheckChild::Said CheckChild::next(std::string& line, Clock::time_point until) {
 
 std::optional<std::string> CheckChild::fate() {
     int status = 0;
-    while (::waitpid(process_, &status, 0) < 0)
-        if (errno != EINTR) break;
-    process_ = -1;
+    // A process that is stuck in a driver's system call cannot be killed, and is left alone.
+    const auto until = Clock::now() + std::chrono::seconds(5);
+    const pid_t process = std::exchange(process_, -1);
+    for (pid_t ended = 0; ended != process;) {
+        ended = ::waitpid(process, &status, WNOHANG);
+        if (ended < 0 && errno != EINTR) break;
+        if (ended == 0 && Clock::now() >= until) return "cannot be ended";
+        if (ended <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     if (WIFSIGNALED(status)) return fmt::format("crashed (signal {})", WTERMSIG(status));
     if (WEXITSTATUS(status) != 0) return fmt::format("ended the program (status {})", WEXITSTATUS(status));
     return std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -33,7 +34,12 @@ struct Report {
 
     /// Takes what a check process said; true where a check has ended.
     bool take(const json& line) {
-        if (line.contains("refused")) throw Error(line["refused"].get<std::string>());
+        if (line.contains("refused")) {
+            if (next == 0) throw Error(line["refused"].get<std::string>());
+            running = "the device, opened again";  // what was found before it went must not be lost
+            add({{"failed", line["refused"]}});
+            return true;
+        }
         if (line.contains("device")) device = line["device"];
         if (line.contains("begins")) {
             running = line["begins"], next = line["number"].get<std::size_t>() + 1, all = line["of"];
@@ -128,16 +134,21 @@ void run_checks(const WantedCheck& wanted, Report& report, const std::function<v
             if (first) on_device();
         }
         if (said == CheckChild::Said::nothing) {
+            if (report.device.is_null())
+                throw Error(fmt::format("the driver did not open the device in {} s", kTime.count()));
             if (report.running.empty() || CheckChild::Clock::now() >= end) return;
             report.slow.push_back(std::exchange(report.running, {}));
             continue;
         }
         const std::optional<std::string> fate = child.fate();
         if (!fate && report.running.empty()) return;
-        if (report.running.empty())
-            throw Error(fmt::format("the driver {} before anything was checked", fate.value_or("")));
+        if (report.running.empty() && report.checks.empty())
+            throw Error(fmt::format("the driver {} before anything was checked", fate.value_or("gave up")));
+        const bool between = report.running.empty();
+        if (between) report.running = "the driver, where nothing was checked";
         report.add({{"failed", "the driver " + fate.value_or("gave up")}});
         on_check(report.checks.back());
+        if (between) return;
     } while (report.next < report.all);
 }
 
@@ -154,7 +165,7 @@ void check_device(const WantedCheck& wanted, bool as_json) {
             [](const json& check) { fmt::print("{}", line_of(check)), std::fflush(stdout); });
     std::size_t wrong = 0;
     for (const json& check : report.checks) wrong += !check["good"];
-    const std::size_t missing = report.all - report.checks.size();
+    const std::size_t missing = report.all - std::min(report.all, report.checks.size());
     if (as_json)
         fmt::print("{}\n", json_text(json{{"wrinkle", WRINKLE_VERSION},
                                           {"system", system_text()},
@@ -172,6 +183,7 @@ void check_device(const WantedCheck& wanted, bool as_json) {
         if (!report.slow.empty()) fmt::print("\nnot checked, as they take too long: {}", fmt::join(report.slow, "; "));
         fmt::print("\n");
     }
+    if (report.checks.empty()) throw Error("no check came to its end, so nothing is known of the device");
     if (wrong > 0) throw Error(fmt::format("the device is out of bounds in {} of {} checks", wrong, report.all));
 }
 

@@ -35,6 +35,7 @@ std::vector<Structure> structure_of(LayerKinds kinds, const Scene& scene) {
 std::vector<std::filesystem::path> files_of(LayerKinds kinds, const Scene& scene) {
     std::vector<std::filesystem::path> files{scene.file, scene.gbuffer.file, scene.gbuffer.beauty_file,
                                              scene.camera.file, scene.lighting.table_file};
+    for (const Light& light : scene.lighting.lights) files.push_back(light.texture);
     for (const Layer& layer : scene.layers)
         if (const auto* const decals = std::get_if<DecalsLayer>(&layer.bump)) files.push_back(decals->file);
     for (const Structure& value : structure_of(kinds, scene)) files.emplace_back(value.value);

@@ -80,6 +80,10 @@ void check_together(const Light& light, const Wrong& wrong) {
     if (light.kind == LightKind::disc && !(light.radius > 0)) wrong({"radius"}, "must be positive for a disc");
     if (light.kind == LightKind::rectangle && !(light.size[0] > 0 && light.size[1] > 0))
         wrong({"width", "height"}, "must be positive for a rectangle");
+    const bool round = light.kind == LightKind::disc || light.kind == LightKind::sphere;
+    if (!round && light.radius > 0) wrong({"radius"}, "is of a disc or a sphere; give the column kind");
+    if (light.kind != LightKind::rectangle && (light.size[0] > 0 || light.size[1] > 0))
+        wrong({"width", "height"}, "are of a rectangle; give the column kind");
     if (light.kind == LightKind::rectangle && !crosses(light.up, light.direction))
         wrong({"up_x", "up_y", "up_z"}, "must not be zero or along the direction; it is the way the height goes");
     if (light.kind == LightKind::point || light.kind == LightKind::sphere) return;

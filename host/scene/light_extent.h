@@ -13,13 +13,16 @@ inline bool crosses(const Vec3& a, const Vec3& b) {
     return dot(cross(a, b), cross(a, b)) > 1e-12 * square;
 }
 
+/// Below this an extent, in metres or radians, shows nothing, and its square would be lost in floats.
+inline constexpr double kLeastExtent = 1e-6;
+
 /// Whether a light is lit as one with an extent.
 inline bool has_extent(const Light& light) {
     switch (light.kind) {
         case LightKind::sun:
-            return light.angle > 0;
+            return light.angle > kLeastExtent;
         case LightKind::sphere:
-            return light.radius > 0;
+            return light.radius > kLeastExtent;
         case LightKind::disc:
         case LightKind::rectangle:
             return true;

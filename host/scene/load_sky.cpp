@@ -67,6 +67,9 @@ SkyHarmonics load_sky(const std::filesystem::path& file) {
             fmt::format("{}: holds integers, which are colours for a display; a sky has to be light, in EXR or "
                         "Radiance's HDR",
                         name));
+    if (spec.tile_width != 0)
+        throw Error(
+            fmt::format("{}: is stored in tiles; a sky is read in rows (oiiotool FILE --scanline -o SKY.exr)", name));
     if (spec.width != 2 * spec.height || spec.height < 1)
         throw Error(fmt::format(
             "{}: is {} x {}; a picture of all directions, by longitude and latitude, is twice as wide as high", name,

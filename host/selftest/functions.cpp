@@ -55,7 +55,8 @@ std::vector<Finding> check_function(const Device& device, const Function& functi
                 else if (is_finite(want) && !(flushes && length(subtract(is, want)) < 4 * 0x1p-126))
                     error =
                         error_of(measure, is, want, n) / (variant.everywhere ? 1 : allowance(answers, measure, row));
-                if (!(error <= finding.error)) finding.error = error;
+                // NaN stays: a result that is not finite is not made good by those after it
+                if (!std::isnan(finding.error) && !(error <= finding.error)) finding.error = error;
             }
             findings.push_back(finding);
         }

@@ -46,6 +46,15 @@ TEST(DeviceCheck, FailsWhereAKernelIsWrong) {
     expect_mentions(ran.err, {"wrinkle: the device is out of bounds in 1 of 1 checks"});
 }
 
+TEST(DeviceCheck, FailsWhereSomeResultsAreNotFinite) {
+    const Workplace place;
+    const std::string some = kernels_that_resolve(
+        place, "{ wr_vec3 r = wr_normalize(wr_sub(n, g)); r.x = g.x < 0 ? (wr_real)(NAN) : r.x; return r; }");
+    const Ran ran = place.run(on_device("--only 'function resolve,'"), some);
+    EXPECT_EQ(ran.code, 1);
+    expect_mentions(ran.out, {"WRONG  function resolve, standard", "not finite"});
+}
+
 TEST(DeviceCheck, GoesOnWhereADriverCrashes) {
     const Workplace place;
     const std::string crash =

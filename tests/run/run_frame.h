@@ -142,14 +142,15 @@ std::size_t marked_differences(const std::map<std::string, std::vector<T>>& got,
     return count;
 }
 
-/// The largest difference between any two outputs of two runs.
+/// The largest difference between any two outputs of two runs; NaN where one is NaN.
 template <class A, class B>
 double largest_difference(const std::map<std::string, std::vector<A>>& a,
                           const std::map<std::string, std::vector<B>>& b) {
     double largest = 0;
     for (const auto& [name, values] : a)
         for (std::size_t i = 0; i < values.size(); ++i)
-            if (const double d = std::abs(double(values[i]) - double(b.at(name)[i])); !(d <= largest)) largest = d;
+            if (const double d = std::abs(double(values[i]) - double(b.at(name)[i])); std::isnan(d) || d > largest)
+                largest = std::isnan(largest) ? largest : d;
     return largest;
 }
 

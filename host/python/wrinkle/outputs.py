@@ -68,10 +68,12 @@ class Stored:
             array, k = arrays.get(group), parts.setdefault(group, 0)
             parts[group] += 1
             stored = group in self._pixels
-            plane = array if stored or array is None or array.ndim == 2 else array[..., k]
+            whole = stored or array is None or array.ndim != 3 or array.shape[2] <= k
+            plane = array if whole else array[..., k]
             kind, components = self._pixels[group] if stored else (np.dtype(number), 1)
             wanted = shape if components == 1 else (*shape, components)
-            if plane is None or plane.dtype != kind or plane.shape != wanted or not plane.flags.c_contiguous:
-                raise Error(f'out: "{group}" as a run of this pass gives it is wanted')
+            if plane is None or plane.dtype != kind or plane.shape != wanted or not plane.flags.c_contiguous or \
+                    not plane.flags.writeable:
+                raise Error(f'out: "{group}" as a run of this pass gives it is wanted, of memory that may be written')
             memories[name] = plane
         return memories
