@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "plan/geometry_text.h"
+#include "plan/section.h"
+#include "scene/light_extent.h"
+
+namespace wrinkle {
+
+std::string roughness_text(Emitter& emitter, Section& section) {
+    if (!emitter.has("roughness")) return "        wr_real roughness = lighting->roughness;\n";
+    section.inputs.insert("roughness");
+    return "        wr_real roughness = wr_load(in_roughness, at.in);\n";
+}
+
+std::string lit_surface_text(Emitter& emitter, Section& section) {
+    std::string text = fmt::format("        wr_vec3 v = {};\n", to_viewer_text(emitter));
+    if (emitter.has("albedo.r") && emitter.has("albedo.g") && emitter.has("albedo.b")) {
+        section.inputs.insert({"albedo.r", "albedo.g", "albedo.b"});
+        text +=
+            "        wr_vec3 albedo = wr_v3(wr_mask_channel(wr_load(in_albedo_r, at.in)),\n"
+            "                            wr_mask_channel(wr_load(in_albedo_g, at.in)),\n"
+            "                            wr_mask_channel(wr_load(in_albedo_b, at.in)));  // [0,1]; NaN is 0\n";
+    } else {
+        text += "        wr_vec3 albedo = wr_v3(lighting->albedo);\n";
+    }
+    if (has_light_table(emitter))
+        text +=
+            "        wr_light_table light_table = {light_rows, light_lists, light_entries};\n"
+            "        wr_index light_tile = wr_tile_number(wr_to_index(at.x), wr_to_index(at.y) - (int)first_row, "
+            "(int)light_supers);\n";
+    return text + roughness_text(emitter, section);
+}
+
+bool has_light_table(const Emitter& emitter) {
+    const Lighting& lighting = emitter.scene.lighting;
+    return emitter.options.write_normal && lighting.relight != Relight::off && lighting.table &&
+           !lighting.table->empty();
+}
+
+bool lights_extend(const Emitter& emitter) {
+    const Lighting& lighting = emitter.scene.lighting;
+    return emitter.options.write_normal && lighting.relight != Relight::off && scene::any_extent(lighting);
+}
+
+double lights_of_pixel(const Emitter& emitter) {
+    constexpr double kOfTable = 8;
+    return static_cast<double>(emitter.scene.lighting.lights.size()) + (has_light_table(emitter) ? kOfTable : 0);
+}
+
+}  // namespace wrinkle
