@@ -82,7 +82,7 @@ std::vector<float> Condition::evaluate(PlaneBuffers& inputs, const Rows& rows) {
     for (const std::string& name : impl.plan.inputs) {
         if (is_label(name)) continue;
         const std::uint32_t salt = hash(++number);
-        const float* from = inputs.map<float>(name, CL_MAP_READ);
+        const float* from = inputs.written<float>(name);
         float* to = moved_.map<float>("moved", CL_MAP_WRITE);
         for (std::size_t i = 0; i < read; ++i)
             to[i] = moved(from[i], (hash(static_cast<std::uint32_t>(first + i) ^ salt) & 1) != 0);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <functional>
 
 #include "io/gbuffer_reader.h"
 #include "run/band_check.h"
+#include "run/bands.h"
 #include "run/condition.h"
 #include "run/frame_outputs.h"
 #include "run/mask_matches.h"
@@ -17,8 +17,7 @@ class [[gnu::visibility("hidden")]] FrameRun;  // as hidden as the pass that it 
 /// One frame in bands, several in flight: while one is evaluated others are read and written.
 class FrameRun {
 public:
-    FrameRun(Pass::Impl& pass, const GBufferReader& reader, PhaseClock& clock)
-        : pass_(pass), reader_(reader), clock_(clock) {}
+    FrameRun(Pass::Impl& pass, const GBufferReader& reader, PhaseClock& clock);
 
     void write_to(FrameOutputs& outputs) { outputs_ = &outputs; }
     /// Starts the check, and shows it every band before that is written.
@@ -34,28 +33,27 @@ public:
     double run(const std::function<void(double)>& progress = {});
 
 private:
-    /// A band's planes, in memory that host and device both reach, and the rows that they are of.
-    struct Slot {
-        PlaneBuffers inputs, outputs;
-        Rows rows;
-        std::map<std::string, std::vector<float>> narrowed;  ///< outputs of a pass in double
-        std::vector<float> condition;
+    /// A band, and what of it only the host has.
+    struct Slot : Band {
+        std::map<std::string, std::vector<float>> passed{};    ///< planes that no kernel reads
+        std::map<std::string, std::vector<float>> narrowed{};  ///< outputs of a pass in double
+        std::vector<float> condition{};
     };
 
     void read(Slot& slot);
-    cl::Event enqueue(const Slot& slot, const Rows& rows);
     void evaluate(Slot& slot);
     void write(Slot& slot);
 
     Pass::Impl& pass_;
     const GBufferReader& reader_;
     PhaseClock& clock_;
+    BandGrid grid_;
     FrameOutputs* outputs_ = nullptr;
     BandCheck* check_ = nullptr;
     Condition* condition_ = nullptr;
     MaskMatches* matches_ = nullptr;
     int repeat_ = 1;
-    std::vector<std::string> names_;
+    std::vector<std::string> read_, passed_;  ///< planes that kernels read, and the others
     double kernel_seconds_ = 0;
 };
 

@@ -1,24 +1,17 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstring>
-
 #include "device/guarded.h"
 #include "layers/kinds.h"
 #include "plan/stored_planes.h"
+#include "run/array_run.h"
 #include "run/pass_impl.h"
-#include "run/plane_buffers.h"
 #include "run/shared_memory.h"
-#include "run/staged_bands.h"
 #include "wrinkle/error.h"
 #include "wrinkle/passes.h"
 
 namespace wrinkle {
 
 namespace {
-
-/// Pixels of a band when a pass runs from host memory: bounds what is staged, large enough to keep every core busy.
-constexpr std::size_t kBandPixels = std::size_t{1} << 20;
 
 /// Planes as bytes, by whoever holds numbers.
 template <class Byte, class T>
@@ -42,51 +35,14 @@ void check(const std::map<std::string, Span>& planes, const std::vector<std::str
     }
 }
 
-void run_bands(Pass::Impl& impl, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress) {
-    const std::size_t width = impl.size.width, height = impl.size.height;
+void run_bytes(Pass::Impl& impl, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress) {
+    const std::size_t pixels = std::size_t{impl.size.width} * impl.size.height;
     const std::vector<std::string>&read_from = impl.plan.input_memories, &written_to = impl.plan.output_memories;
-    const auto in_bytes = [&](const std::string& name) { return std::size_t{pixel_bytes(name, impl.plan.formats)}; };
-    const auto out_bytes = [&](const std::string& name) { return impl.output_bytes(name); };
-    check(in, read_from, width * height, "input", in_bytes);
-    check(out, written_to, width * height, "output", out_bytes);
+    check(in, read_from, pixels, "input",
+          [&](const std::string& name) { return std::size_t{pixel_bytes(name, impl.plan.formats)}; });
+    check(out, written_to, pixels, "output", [&](const std::string& name) { return impl.output_bytes(name); });
     refuse_shared_memory(in, read_from, out, written_to);
-    if (impl.device.info.own_memory) {
-        run_staged(impl, in, out, progress);
-        return impl.save();
-    }
-
-    const std::size_t least = impl.plan.sums_over;
-    const std::size_t rows = std::clamp<std::size_t>(kBandPixels / width / least * least, least, height);
-    const std::size_t halo = impl.plan.neighbours ? 1 : 0;
-    PlaneBuffers inputs(impl.device, read_from, width * (rows + 2 * halo), in_bytes);
-    PlaneBuffers outputs(impl.device, written_to, width * rows, out_bytes);
-    for (std::size_t first = 0; first < height; first += rows) {
-        const std::size_t count = std::min(rows, height - first);
-        const std::size_t before = std::min(halo, first), after = std::min(halo, height - first - count);
-        for (const std::string& name : read_from) {
-            const std::size_t row = width * in_bytes(name);
-            std::memcpy(inputs.map<std::byte>(name, CL_MAP_WRITE), in.at(name).data() + (first - before) * row,
-                        (before + count + after) * row);
-        }
-        inputs.unmap();
-        for (const std::string& name : written_to) {
-            if (!has_gaps(name, impl.plan.output_formats)) continue;
-            const std::size_t row = width * out_bytes(name);
-            std::memcpy(outputs.map<std::byte>(name, CL_MAP_WRITE), out.at(name).data() + first * row, count * row);
-        }
-        outputs.unmap();
-        impl.enqueue(inputs.planes(), outputs.planes(),
-                     {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
-                      static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(after)},
-                     both_ready(inputs, outputs))
-            .wait();
-        for (const std::string& name : written_to) {
-            const std::size_t row = width * out_bytes(name);
-            std::memcpy(out.at(name).data() + first * row, outputs.map<std::byte>(name, CL_MAP_READ), count * row);
-        }
-        outputs.unmap();
-        if (progress) progress(static_cast<double>(first + count) / static_cast<double>(height));
-    }
+    run_arrays(impl, in, out, progress);
     impl.save();
 }
 
@@ -100,7 +56,7 @@ void run_numbers(Pass::Impl& impl, const HostPlanes& in, const std::map<std::str
         for (const auto& [plane, format] : *formats)
             throw Error(fmt::format("the plane \"{}\" is {} in the memory \"{}\"; give the pass planes as bytes", plane,
                                     encoding_name(format.encoding), format.memory));
-    run_bands(impl, as_memory<const std::byte>(in), as_memory<std::byte>(out), progress);
+    run_bytes(impl, as_memory<const std::byte>(in), as_memory<std::byte>(out), progress);
 }
 
 Pass make_pass(const char* what, const Device& device, const Scene& scene, const Frame& frame,
@@ -138,7 +94,7 @@ void run(Pass& pass, const HostPlanes& in, const HostDoubles& out, const ToldSha
 }
 
 void run(Pass& pass, const HostBytes& in, const HostByteOutputs& out, const ToldShare& progress) {
-    guarded("run a pass", [&] { run_bands(pass.impl(), in, out, progress); });
+    guarded("run a pass", [&] { run_bytes(pass.impl(), in, out, progress); });
 }
 
 void Pass::run(const HostPlanes& in, const HostOutputs& out) { wrinkle::run(*this, in, out, {}); }
