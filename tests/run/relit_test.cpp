@@ -1,67 +1,10 @@
-// A picture that is relit by ratio beside the picture rendered again with the same bumps: never worse than unbumped.
+// What relighting by ratio does with each part of a picture; tests/run/rerender_test.cpp has whole ones.
 #include <cmath>
 
 #include "tests/run/run_frame.h"
-#include "tools/frame_lights.h"
 
 namespace wrinkle::test {
 namespace {
-
-double srgb(double linear) {
-    const double c = std::clamp(linear, 0.0, 1.0);
-    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-}
-
-/// Decibels by which a picture is off the one rendered with bumps, on pixels of one object; 0: on all.
-double decibels(const HostFrame& frame, const Pixels& planes, const std::string& layer, const char* colours,
-                int object) {
-    const std::vector<float>& objects = frame.pixels.at("object");
-    double sum = 0, count = 0;
-    for (std::size_t i = 0; i < frame.count(); ++i) {
-        if (object != 0 && objects[i] != static_cast<float>(object)) continue;
-        for (int c = 0; c < 3; ++c) {
-            const float wanted = frame.pixels.at(std::string("channel:Bumped.") + "RGB"[c])[i];
-            const double gap = srgb(planes.at(layer + colours[c])[i]) - srgb(wanted);
-            sum += gap * gap, ++count;
-        }
-    }
-    return -10 * std::log10(sum / count);
-}
-
-TEST(Relit, StandsCloserToTheRerenderThanTheUnbumpedPicture) {
-    const HostFrame frame = data_frame("relit");
-    const Scene scene = load_scene(data_folder / "../bench/picture/relit.toml");
-    struct Way {
-        const char* name;
-        double gain;  ///< decibels of the whole frame
-        void (*change)(Lighting& lighting);
-    };
-    const Way ways[] = {{"as it is", 1, [](Lighting&) {}},
-                        {"ambient", 3,
-                         [](Lighting& l) {
-                             l.ambient = {0.3, 0.33, 0.4};
-                         }},
-                        {"shadows read", 3.2, [](Lighting& l) { l.shadows = Shadows::read; }},
-                        {"the sun's picture", 3.2, [](Lighting& l) { l.lights[0].picture = "Combined_sun"; }},
-                        {"fitted", 3.2, [](Lighting& l) {
-                             Scene bare = load_scene(data_folder / "../bench/picture/relit.toml");
-                             bare.lighting.lights.clear();
-                             EXPECT_TRUE(wants_lights(bare));
-                             l = with_lights(bare, lights_of_frame(bare, 0)).lighting;
-                         }}};
-    for (const Way& way : ways) {
-        Scene own = scene;
-        way.change(own.lighting);
-        const Pixels got = evaluate_on(frame, own);
-        for (const int object : {0, 1, 2, 3}) {
-            const double before = decibels(frame, frame.pixels, "beauty.", "rgb", object);
-            const double after = decibels(frame, got, "lit.", "rgb", object);
-            fmt::print("{}, object {}: {:.1f} dB, unbumped {:.1f}\n", way.name, object, after, before);
-            // Along the outline of the ball, which is metal, pixels are a mixture.
-            EXPECT_GT(after, before + (object == 0 ? way.gain : -0.1)) << way.name << ", object " << object;
-        }
-    }
-}
 
 TEST(Relit, WhereALightsPictureIsDarkNothingIsBumped) {
     HostFrame frame(plane_frame(test_camera(), {19, 5}, normalize(V{0.1, -0.2, 1})), test_camera());
