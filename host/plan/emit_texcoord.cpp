@@ -94,7 +94,7 @@ MaskText emit_mask_parts(Emitter& emitter, const Layer& layer, Section& section)
             "        wr_texture t = wr_texture_at(texels, textures, {});\n"
             "        m *= wr_mask_channel(wr_texture_sample1(t, wr_repeat(c.st.x), wr_repeat(c.st.y), {}));\n        "
             "}}\n",
-            number, layer.footprint ? "wr_texture_lod(t, c.dx, c.dy)" : "(wr_real)(0)");
+            number, layer.footprint ? "wr_filter_lod(t, c.dx, c.dy)" : "(wr_real)(0)");
         section.operations += 60;
     }
     if (mask.invert) text += "        m = 1 - m;\n";

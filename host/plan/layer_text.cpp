@@ -49,7 +49,7 @@ std::string LayerText::lod(const std::string& dx, const std::string& dy) const {
     if (!layer.footprint) return "(wr_real)(0)";
     // One point a pixel is the centre of its area, sampled as if areas were not walked at all.
     const bool several = over_area() && emitter.scene.filter.taps > 1;
-    return fmt::format("{}(t, {}, {})", several ? "wr_area_lod" : "wr_texture_lod", dx, dy);
+    return fmt::format("{}(t, {}, {})", several ? "wr_area_lod" : "wr_filter_lod", dx, dy);
 }
 
 std::string LayerText::located(const TextureUse& use, TexelKind kind) {

@@ -27,7 +27,7 @@ struct NoiseShape {
 struct NoiseLayer {
     static constexpr const char* kind = "noise";
     double frequency = 1;  ///< lattice cells per metre of the first octave
-    int octaves = 1;       ///< at most; those above the footprint's Nyquist frequency are not evaluated
+    int octaves = 1;       ///< at most; those that are too fine for a pixel to show are not evaluated
     double lacunarity = 2, gain = 0.5;
     NoiseType type = NoiseType::perlin;
     CellFeature feature = CellFeature::f1;  ///< worley

@@ -19,7 +19,7 @@ inline Cases fractal_cases(reference::Octaves kind) {
     using reference::Octaves;
     Cases c{.name = "fractals of noise"};
     c.data.constants_per_row = 4 * 16 + (kind == Octaves::ridged ? 4 : 2);
-    const reference::NoiseMeans<real> means{0, 0.2204L, 0.0731L};
+    const auto means = reference::perlin_means<real>();
     for (unsigned seed = 1; seed <= 200; ++seed) {
         Random random(seed);
         reference::Fractal<real> f{random.magnitude(-1, 1), fractal_octaves, 2, 0.5L, kind};
@@ -36,7 +36,7 @@ inline Cases fractal_cases(reference::Octaves kind) {
             for (const real e : {eye.x, eye.y, eye.z})
                 lattice.push_back(static_cast<double>(e * frequency - 256 * std::floor(e * frequency / 256)));
             lattice.push_back(static_cast<double>(frequency));
-            const real weight = reference::octave_weight(footprint * frequency);
+            const real weight = reference::octave_weight(means, footprint * frequency);
             size += amplitude * frequency * weight;
             if (weight > 0) nearest = std::min(nearest, std::abs(reference::perlin_noise((eye + p) * frequency).value));
         }

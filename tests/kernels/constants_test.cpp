@@ -56,8 +56,12 @@ TEST(Constants, TriplanarPlanesUnderTheBiasHaveNoWeight) {
     EXPECT_EQ(r[1], (Numbers{1, 1, 1, 1}));
 }
 
-TEST(Constants, OctavesFadeOutTowardsNyquist) {
-    EXPECT_EQ(over({0, 0.5f, 0.75f, 1, 9}, {"wr_octave_weight(v)"})[0], (Numbers{1, 1, 0.5, 0, 0}));
+TEST(Constants, OctavesFadeOutByTheirNoise) {
+    const auto weight = [](const std::string& basis) {
+        return over({0, 1, 9}, {"wr_octave_weight(wr_noise_mean((wr_noise){.basis = " + basis + "}), v)"})[0];
+    };
+    EXPECT_EQ(weight("WR_SIMPLEX"), (Numbers{1, 0, 0}));
+    EXPECT_EQ(weight("WR_WORLEY + WR_F1"), (Numbers{1, 0.25, 0}));
 }
 
 TEST(Constants, RoughnessHasAFloorAndTheRatioABias) {

@@ -14,6 +14,7 @@ struct NoiseMeans {
     T value{}, magnitude{}, square{};
     T slope{}, magnitude_slope{},
         square_slope{};  ///< of g^2, |n| g^2 and n^2 g^2; g^2: a third of the gradient's square
+    T fade{}, fade_square{};  ///< by which octaves fade in a pixel: octave_weight
 };
 
 enum class Octaves { sum, turbulence, ridged };
@@ -31,14 +32,15 @@ struct Fractal {
 template <class T>
 using OctaveNoise = std::function<NoiseValue<T>(int octave, Vec<T> p)>;
 
-/// How much of an octave remains when a pixel spans so many of its lattice cells: all up to a half, nothing from
-/// a whole one on.
+/// How much of an octave remains when a pixel spans so many of its lattice cells. It stands for the regression of the
+/// gradient's mean over the pixel on the gradient in its middle, which noise_test.cpp measures.
 template <class T>
-T octave_weight(T cells) {
-    return saturate(2 - 2 * cells);
+T octave_weight(const NoiseMeans<T>& means, T cells) {
+    const T left = saturate(1 - cells * (means.fade + cells * means.fade_square));
+    return left * left;
 }
 
-/// Fractals of noise with octaves above the footprint's Nyquist frequency faded to their means, and with |n| as its
+/// Fractals of noise with octaves that are fine beside the footprint faded to their means, and with |n| as its
 /// mean over the pixel. Sum and turbulence: Perlin 1985, of n and |n|; ridged multifractal: Musgrave, in Ebert et al.,
 /// "Texturing and Modeling", 2003. `footprint`: longest of |dp/dx|, |dp/dy|; 0 keeps every octave. The gradient is that
 /// of a constant footprint.
@@ -48,7 +50,7 @@ NoiseValue<T> fractal(const Fractal<T>& f, const OctaveNoise<T>& noise, const No
     NoiseValue<T> sum, previous{1, {}};
     T frequency = f.frequency, amplitude = 1;
     for (int i = 0; i < f.octaves; ++i) {
-        const T share = octave_weight(footprint * frequency);
+        const T share = octave_weight(means, footprint * frequency);
         NoiseValue<T> n = noise(i, p * frequency);
         n.gradient = n.gradient * frequency;
         T mean = means.value;
@@ -82,11 +84,17 @@ NoiseValue<T> fractal(const Fractal<T>& f, const OctaveNoise<T>& noise, const No
     return sum;
 }
 
+/// The means of Perlin's noise of 2002.
+template <class T>
+NoiseMeans<T> perlin_means() {
+    return {0, T(0.2204L), T(0.0731L), T(0.4999L), T(0.0996L), T(0.0301L), 0, T(0.435L)};
+}
+
 /// The fractal sum of Perlin's noise of 2002.
 template <class T>
 NoiseValue<T> fractal_sum(const Fractal<T>& f, Vec<T> p, T footprint) {
     return fractal<T>(
-        f, [](int, Vec<T> q) { return perlin_noise(q); }, {}, p, footprint);
+        f, [](int, Vec<T> q) { return perlin_noise(q); }, perlin_means<T>(), p, footprint);
 }
 
 }  // namespace wrinkle::reference

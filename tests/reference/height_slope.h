@@ -8,13 +8,20 @@
 namespace wrinkle::reference {
 
 /// The mip level of a texture w x h for screen derivatives of (s,t): 0.5 log2 of the square of the footprint's longer
-/// axis, in texels, limited to [0, levels - 1].
+/// axis, in texels, less `finer`, limited to [0, levels - 1].
 template <class T>
-T level_of_detail(TexDerivative<T> st, int w, int h, int levels) {
+T level_of_detail(TexDerivative<T> st, int w, int h, int levels, T finer = 0) {
     const auto squared = [&](Vec2<T> d) { return d.x * w * d.x * w + d.y * h * d.y * h; };
     const T longest = std::max(squared(st.dx), squared(st.dy));
     if (!(longest > 1)) return 0;
-    return std::min(std::log2(longest) / 2, T(levels - 1));
+    return std::clamp(std::log2(longest) / 2 - finer, T(0), T(levels - 1));
+}
+
+/// By how many levels a sample is finer than the footprint is long: bilinear interpolation of means over texels blurs by a
+/// variance of a quarter of a texel's square, a pixel by a twelfth of its own.
+template <class T>
+T filter_finer() {
+    return std::log2(T(3)) / 2;
 }
 
 /// [Mik20 listing 16, isUpscaleHQ = false] dH/d(u,v) per level-0 texel: three taps 2^lod texels apart.

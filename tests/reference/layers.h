@@ -192,7 +192,7 @@ LayerFunction<T> make_layer(const VolumeLayer& layer, bool footprint, SceneTextu
         const auto turned = [&](Vec<T> v) { return Vec<T>{dot(row(0), v), dot(row(1), v), dot(row(2), v)}; };
         const Vec<T> q = turned(s.position) + Vec<T>{T(m[0][3]), T(m[1][3]), T(m[2][3])};
         const T longest = std::max(length(turned(s.d.dp_dx)), length(turned(s.d.dp_dy)));
-        const T lod = footprint ? std::log2(std::max(longest, T(1))) : T(0);
+        const T lod = footprint ? std::max(std::log2(std::max(longest, T(1))) - filter_finer<T>(), T(0)) : T(0);
         const auto at_point = [&](const Voxels<T>& voxel, Vec<T> at) {
             return layer.filter == VolumeFilter::smooth ? quadratic_spline(voxel, at) : trilinear(voxel, at);
         };

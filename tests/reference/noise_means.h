@@ -28,19 +28,19 @@ template <class T>
 NoiseMeans<T> noise_means(const NoiseLayer& layer) {
     switch (layer.type) {
         case NoiseType::perlin:
-            return {0, T(0.2204L), T(0.0731L), T(0.4999L), T(0.0996L), T(0.0301L)};
+            return perlin_means<T>();
         case NoiseType::perlin1985:
-            return {0, T(0.2091L), T(0.0667L), T(0.3990L), T(0.0771L), T(0.0227L)};
+            return {0, T(0.2091L), T(0.0667L), T(0.3990L), T(0.0771L), T(0.0227L), 0, T(0.37L)};
         case NoiseType::simplex:
-            return {0, T(0.3156L), T(0.1442L), T(2.4671L), T(0.6802L), T(0.2741L)};
+            return {0, T(0.3156L), T(0.1442L), T(2.4671L), T(0.6802L), T(0.2741L), 0, 1};
         case NoiseType::worley:
             break;
     }
     if (layer.feature == CellFeature::f1)
-        return {T(0.5199L), T(0.5199L), T(0.3000L), T(0.3333L), T(0.1734L), T(0.1002L)};
+        return {T(0.5199L), T(0.5199L), T(0.3000L), T(0.3333L), T(0.1734L), T(0.1002L), T(0.5L), 0};
     if (layer.feature == CellFeature::f2)
-        return {T(0.7165L), T(0.7165L), T(0.5337L), T(0.3333L), T(0.2390L), T(0.1781L)};
-    return {T(0.1965L), T(0.1965L), T(0.0637L), T(0.7536L), T(0.1460L), T(0.0467L)};
+        return {T(0.7165L), T(0.7165L), T(0.5337L), T(0.3333L), T(0.2390L), T(0.1781L), T(0.9L), 0};
+    return {T(0.1965L), T(0.1965L), T(0.0637L), T(0.7536L), T(0.1460L), T(0.0467L), T(0.93L), 0};
 }
 
 }  // namespace wrinkle::reference

@@ -32,7 +32,8 @@ struct LayerTexture {
 
     T lod(const TexDerivative<T>& d, bool footprint) const {
         const Level<T>& top = pyramid->levels.front();
-        return footprint ? level_of_detail(d, top.width, top.height, static_cast<int>(pyramid->levels.size())) : T(0);
+        const int levels = static_cast<int>(pyramid->levels.size());
+        return footprint ? level_of_detail(d, top.width, top.height, levels, filter_finer<T>()) : T(0);
     }
     /// The vector of an object-space normal map.
     Vec<T> vector(const TexCoord<T>& at, bool footprint) const {

@@ -6,7 +6,7 @@
 namespace wrinkle::test {
 namespace {
 
-constexpr int kShrink = 4;
+constexpr int kShrink = 2;
 
 /// Means of Sobel slopes per texel of the small map, and of their products, as maketx has them: t points down.
 struct Means {
@@ -70,7 +70,7 @@ TEST(AreaBumpslopes, ShowWhatTheHeightMapShows) {
     EXPECT_GT(normals.count, 200u);
     EXPECT_LT(normals.max, 1e-3);
     EXPECT_LT(sigmas.max, 0.05);
-    EXPECT_GT(without.p99, 0.2) << "slopes alone do not know what was averaged";
+    EXPECT_GT(without.p99, 0.1) << "slopes alone do not know what was averaged";
 }
 
 }  // namespace

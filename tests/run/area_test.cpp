@@ -33,7 +33,7 @@ std::vector<AreaCase> area_cases() {
     DecalLayer box{.texture = {.file = cobbles}, .center = {0, 0, 0}, .half_size = {5, 5, 0.5}};
     return {{"height_map", height, 2, 0.3},
             {"height_map by uv", layer_of(HeightMapLayer{{.file = cobbles}, {.scale = {0.32, 0.32}}}, 0.3), 2.1, 0.3},
-            {"normal_map", normal, 0.9, 0.3},
+            {"normal_map", normal, 0.9, 0.45},
             {"noise", layer_of(sum, 0.3), 1.2, 0.4},
             {"ridged noise", layer_of(ridges, 0.2), 2.4, 0.7},
             {"triplanar", layer_of(TriplanarLayer{.texture = {.file = cobbles}, .tile = 12}, 0.3), 2.4, 0.35},

@@ -100,8 +100,8 @@ TEST(DecalTables, InDoubleAndInSplitKernels) {
     const HostFrame frame = small_frame();
     const Scene scene = table_scene(on_surfaces(frame, 200, 0.1, 0.8, 25));
     const Truth truth(frame, scene);
-    expect_within("float", normal_error(evaluate_on(frame, scene), truth), {3e-6, 3e-3, 3e-2}, "degrees");
-    expect_within("split", normal_error(evaluate_on(frame, scene, {.split = true}), truth), {3e-6, 3e-3, 3e-2},
+    expect_within("float", normal_error(evaluate_on(frame, scene), truth), {3e-6, 4e-3, 9e-2}, "degrees");
+    expect_within("split", normal_error(evaluate_on(frame, scene, {.split = true}), truth), {3e-6, 4e-3, 9e-2},
                   "degrees");
     Pass pass = evaluate(device(), scene, frame.frame, {.fp64 = true});
     expect_within("double", normal_error(run<double>(pass, frame), truth), {3e-6, 2e-5, 2e-4}, "degrees");

@@ -82,7 +82,7 @@ TEST(Variants, AnyNumberOfStagesAgreesWithTheReference) {
     const Pixels got = evaluate_on(frame, scene);
     for (std::size_t i = 0; i < frame.count(); ++i)
         if (truth.pixels[i].valid) errors.push_back(angle_degrees(vec_at(got, "normal", i), truth.pixels[i].normal));
-    expect_within("four stages", Spread(std::move(errors)), {5e-5, 3e-4, 1e-3}, "degrees");
+    expect_within("four stages", Spread(std::move(errors)), {7e-5, 8e-4, 2e-3}, "degrees");
     EXPECT_EQ(marked_differences(got, truth), 0u);
 }
 
