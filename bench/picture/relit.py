@@ -3,10 +3,10 @@
 
     bench/picture/relit.py [--wrinkle build/release/wrinkle] [--pictures FOLDER] [SCENE.toml ...]
 
-Without a scene: relit.toml and yard.toml beside this. Their frames are render.py's. Rows: the unbumped picture, a re-render with another
-seed, and what wrinkle makes of it in each mode of relit_modes.py. Columns: FLIP and dB of the frame and of each object, FLIP of the
-ground in the sun's shadow, and the share of the pixels just behind the terminator of the sun that are more than 1.1 times as bright as
-in the re-render. --pictures keeps what was written. Needs what picture_error.py needs.
+Without a scene: relit.toml and yard.toml beside this. Their frames are render.py's; the layers bump its objects 1, 2 ... in turn, and are
+what these are called. Rows: the unbumped picture, a re-render with another seed, and what wrinkle makes of it in each mode of
+relit_modes.py. Columns: FLIP and dB of the frame and of each object, FLIP of the ground in the sun's shadow, and the share of the pixels
+just behind the terminator of the sun that are more than 1.1 times as bright as in the re-render. --pictures keeps what was written. Needs what picture_error.py needs.
 """
 import argparse
 import pathlib
@@ -21,7 +21,6 @@ from picture_error import decibels, flip, linear, planes
 from relit_modes import frame_of, modes
 
 HERE = pathlib.Path(__file__).parent
-OBJECTS = {"relit": ["torus", "ball", "ground"], "yard": ["wall", "ground", "pot", "chrome", "leaf"]}  # their numbers: 1, 2 ...
 BEHIND = 0.08  # of the pixels behind the terminator may be too bright
 WORSE = 0.0005  # of FLIP: what three digits do not show
 
@@ -35,7 +34,8 @@ class Truth:
         self.bumped, self.unbumped = linear(frame, "Bumped."), linear(frame, "ViewLayer.Combined.")
         self.again = linear(frame, "BumpedAgain.")
         index = frame["ViewLayer.Object Index.X"].round().astype(int)
-        names = OBJECTS.get(frame_of(scene).stem, [f"object {k + 1}" for k in range(index.max())])
+        layers = [layer["name"] for layer in self.told["layer"]]
+        names = layers + [f"object {k + 1}" for k in range(len(layers), index.max())]
         self.objects = {name: index == k + 1 for k, name in enumerate(names)}
         normal = np.stack([frame[f"ViewLayer.Normal.{c}"] for c in "XYZ"], axis=2)
         sun = next(light for light in self.told["light"] if light["kind"] == "sun")
