@@ -3,86 +3,17 @@
 #include <cmath>
 #include <deque>
 #include <optional>
-#include <random>
 
-#include "area_surfaces.h"
+#include "area_truth.h"
 #include "contests.h"
 #include "resident.h"
-#include "tests/reference/evaluate.h"
-#include "tests/reference/scene_images.h"
 #include "texture_system.h"
 
 namespace wrinkle::bench {
 
 namespace {
 
-constexpr std::uint32_t kPoints = 32;  // of the truth, along each side of a pixel
-constexpr int kColumns = 6;            // of pixels that have a truth
-
 const std::filesystem::path kTextures = WRINKLE_SOURCE_DIR "/data/textures";
-
-using Vectors = std::vector<std::array<double, 3>>;
-
-/// The surface's own normals, a pixel each.
-Vectors own_normals(const AreaSurface& surface) {
-    const BenchFrame frame = surface.frame(1);
-    Vectors out;
-    for (std::size_t i = 0; i < frame.pixels(); ++i)
-        out.push_back({frame.planes.at("normal.x")[i], frame.planes.at("normal.y")[i], frame.planes.at("normal.z")[i]});
-    return out;
-}
-
-/// The normals that the mean surface gradient over the area of some pixels makes, by the double-precision reference at
-/// 1024 points of each.
-struct Truth {
-    std::vector<std::size_t> pixels;
-    Vectors normals;
-
-    Truth(const AreaSurface& surface, Scene scene) {
-        for (Layer& layer : scene.layers) layer.footprint = false;
-        const reference::Images images = reference::images_of(scene);
-        const Vectors own = own_normals(surface);
-        std::mt19937 random(kSeed);
-        std::uniform_int_distribution<std::uint32_t> column(0, surface.size.width - 1);
-        for (int k = 0; k < kColumns; ++k) add(surface, scene, images, own, column(random));
-    }
-
-    ErrorStats compare(const Vectors& got) const {
-        std::vector<double> degrees;
-        for (std::size_t k = 0; k < pixels.size(); ++k) {
-            const auto &a = got[pixels[k]], &b = normals[k];
-            const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-            degrees.push_back(std::atan2(std::hypot(x, y, z), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) *
-                              57.29577951308232);
-        }
-        return statistics(std::move(degrees));
-    }
-
-private:
-    void add(const AreaSurface& surface, const Scene& scene, const reference::Images& images, const Vectors& own,
-             std::uint32_t x) {
-        const BenchFrame points = surface.column(x, kPoints);
-        reference::Planes planes;
-        for (const auto& [name, plane] : points.planes) planes[name] = plane;
-        const reference::SceneEvaluator<double> evaluator(scene, points.frame.size, points.frame.camera, planes,
-                                                          images);
-        constexpr std::size_t count = std::size_t{kPoints} * kPoints;
-        for (std::uint32_t y = 0; y < surface.size.height; ++y) {
-            const std::size_t pixel = std::size_t{y} * surface.size.width + x;
-            std::array<double, 3> normal = own[pixel];
-            bool whole = true;
-            for (std::size_t i = 0; i < count && whole; ++i) {
-                const auto at = evaluator.evaluate(y * count + i);
-                whole = at.valid;
-                normal[0] -= at.surface_gradient.x / count, normal[1] -= at.surface_gradient.y / count;
-                normal[2] -= at.surface_gradient.z / count;
-            }
-            if (!whole) continue;
-            pixels.push_back(pixel);
-            normals.push_back(normal);
-        }
-    }
-};
 
 /// Normals of a frame of factor x factor points a pixel: of the mean surface gradient.
 Vectors averaged(const AreaSurface& surface, const Normals& bumped, std::uint32_t factor) {
@@ -164,7 +95,7 @@ void measure(const Device& device, const AreaSurface& surface, const Source& sou
     const std::string name = surface.name == "ground" ? source.name : fmt::format("{}, {}", source.name, surface.name);
     Scene scene;
     scene.layers = {source.layer};
-    const Truth truth(surface, scene);
+    const AreaTruth truth(surface, scene);
     const std::size_t pixels = surface.frame(1).pixels();
     std::deque<Resident> residents;
     std::vector<Contender> contenders;

@@ -33,6 +33,11 @@ void measure_files(Size size, Run& run);
 /// stored alike. Errors are against what was to be stored. Group "storage".
 void measure_storage(const Device& device, Size size, Run& run);
 
+/// A height map at 16 points of a pixel's area on a ground to the horizon, by texture coordinates that are stored and
+/// by those of positions, from planes stored as floats and in fewer bytes, to normals stored alike. Errors are against
+/// the mean over each pixel's area. Group "storage".
+void measure_stored_area(const Device& device, Run& run);
+
 /// A scene as it is, and with one saving left out at a time: with the layers of other scenes compiled in and skipped by
 /// branches; without skipping pixels; without footprints; without fusing. Group "ablation".
 void measure_ablation(const Device& device, const std::filesystem::path& file, Size size, Run& run);

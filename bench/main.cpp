@@ -108,7 +108,10 @@ void measure(const Device& device, const Arguments& a, bench::Run& run) {
     }
     if (wanted("variants")) bench::measure_variants(device, size, run);
     if (wanted("area")) bench::measure_area(device, run);
-    if (wanted("storage")) bench::measure_storage(device, size, run);
+    if (wanted("storage")) {
+        bench::measure_storage(device, size, run);
+        bench::measure_stored_area(device, run);
+    }
     if (wanted("ablation")) bench::measure_ablation(device, demo, size, run);
     if (wanted("bars")) {
         bench::measure_stack(device, size, run);

@@ -1,14 +1,10 @@
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <random>
 
 #include "bench_kernel.h"
 #include "contests.h"
-#include "frame.h"
 #include "plan/stored_planes.h"
 #include "run/pass_impl.h"
-#include "tests/reference/stored.h"
+#include "stored_pass.h"
 
 namespace wrinkle::bench {
 
@@ -20,44 +16,7 @@ using enum PlaneEncoding;
 const std::vector<std::string> kNormal{"normal.x", "normal.y", "normal.z"},
     kGradient{"channel:g.x", "channel:g.y", "channel:g.z"};
 
-/// The nearest IEEE half of a number of at most 65504.
-std::uint16_t half_of(float v) {
-    const auto bits = std::bit_cast<std::uint32_t>(v);
-    const float size = std::abs(v);
-    const auto sign = static_cast<std::uint16_t>(bits >> 16 & 0x8000u);
-    if (size < 6.103515625e-05F)  // denormal halves are multiples of 2^-24
-        return static_cast<std::uint16_t>(sign | static_cast<std::uint32_t>(std::nearbyint(size * 16777216.0F)));
-    const std::uint32_t magnitude = (bits & 0x7fffffffu) - (112u << 23);
-    return static_cast<std::uint16_t>(sign | (magnitude + 0xfffu + (magnitude >> 13 & 1u)) >> 13);
-}
-
-std::uint32_t bits_of(PlaneEncoding encoding, float v) {
-    return encoding == half ? half_of(v) : std::bit_cast<std::uint32_t>(v);
-}
-
-Vector vector_at(const BenchFrame& frame, const std::string& role, std::size_t i) {
-    return {frame.planes.at(role + "x")[i], frame.planes.at(role + "y")[i], frame.planes.at(role + "z")[i]};
-}
-
-/// A way to store the planes of a frame.
-struct Way {
-    const char* name;
-    PlaneFormats in, out;
-};
-
-PlaneFormats united(std::initializer_list<PlaneFormats> all) {
-    PlaneFormats out;
-    for (const PlaneFormats& each : all) out.insert(each.begin(), each.end());
-    return out;
-}
-
-PlaneFormats planar(PlaneEncoding encoding, const std::vector<std::string>& planes) {
-    PlaneFormats out;
-    for (const std::string& plane : planes) out[plane] = {.encoding = encoding};
-    return out;
-}
-
-std::vector<Way> ways() {
+std::vector<StoredWay> ways() {
     std::vector<std::string> all = kNormal, pixels = kNormal, gradients = kGradient, normals = kNormal;
     all.insert(all.end(), kGradient.begin(), kGradient.end()), all.push_back("depth");
     pixels.push_back("depth"), gradients.emplace_back(), normals.emplace_back();
@@ -69,92 +28,6 @@ std::vector<Way> ways() {
             {"RGBA16F", united({interleaved("pixels", half, pixels), interleaved("gradients", half, gradients)}),
              interleaved("normals", half, normals)}};
 }
-
-/// A pass that does nothing but resolve, with its planes on the device in the formats of a way.
-struct Job {
-    Pass pass;
-    PlaneBuffers in, out;
-
-    Job(const Device& device, const Scene& scene, const BenchFrame& frame, const Way& way)
-        : pass(evaluate(device, scene, stored(frame.frame, way), options(way))) {
-        const Plan& plan = pass.impl().plan;
-        const auto bytes = [](const PlaneFormats& formats) {
-            return [&formats](const std::string& name) { return std::size_t{pixel_bytes(name, formats)}; };
-        };
-        in = PlaneBuffers(device, pass.inputs(), frame.pixels(), bytes(plan.formats));
-        out = PlaneBuffers(device, pass.outputs(), frame.pixels(), bytes(plan.output_formats));
-        for (const std::string& name : pass.inputs()) {
-            auto* memory = in.map<std::byte>(name, CL_MAP_WRITE);
-            std::memset(memory, 0, frame.pixels() * pixel_bytes(name, plan.formats));
-            for (const std::string& plane : plan.inputs) {
-                const auto found = plan.formats.find(plane);
-                const PlaneFormat format =
-                    found == plan.formats.end() ? PlaneFormat{.stride = 4, .memory = plane} : found->second;
-                if (format.memory == name) pack(memory, format, frame, plane);
-            }
-        }
-        in.unmap();
-    }
-
-    void run() { pass.enqueue(in.planes(), out.planes()).wait(); }
-
-private:
-    static PassOptions options(const Way& way) {
-        PassOptions out;
-        out.output_formats = way.out;
-        return out;
-    }
-
-    static Frame stored(Frame frame, const Way& way) {
-        frame.formats = way.in;
-        return frame;
-    }
-
-    static void pack(std::byte* memory, const PlaneFormat& format, const BenchFrame& frame, const std::string& plane) {
-        const std::uint32_t bytes = bytes_of(format.encoding);
-        const std::vector<float>& values = frame.planes.at(plane);
-        for (std::size_t i = 0; i < frame.pixels(); ++i) {
-            const std::uint32_t bits = format.encoding == octahedral16
-                                           ? reference::encoded_normal(octahedral16, vector_at(frame, "normal.", i))
-                                           : bits_of(format.encoding, values[i]);
-            std::memcpy(memory + i * format.stride + format.offset, &bits, bytes);
-        }
-    }
-};
-
-/// The number that a memory holds of a plane.
-double number_at(const std::byte* memory, const PlaneFormat& format, std::size_t i) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, memory + i * format.stride + format.offset, bytes_of(format.encoding));
-    return reference::decoded(format.encoding, bits);
-}
-
-/// The same of three planes, of which `x` is the first.
-class StoredVectors {
-public:
-    StoredVectors(PlaneBuffers& buffers, const PlaneFormats& formats, std::string x) {
-        for (const char axis : {'x', 'y', 'z'}) {
-            x.back() = axis;
-            const auto found = formats.find(x);
-            formats_.push_back(found == formats.end() ? PlaneFormat{.stride = 4, .memory = x} : found->second);
-            memory_.push_back(buffers.map<const std::byte>(formats_.back().memory, CL_MAP_READ));
-        }
-    }
-
-    Vector at(std::size_t i) const {
-        if (formats_[0].encoding == octahedral16) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, memory_[0] + i * formats_[0].stride, sizeof bits);
-            return reference::decoded_normal(octahedral16, bits);
-        }
-        return {number_at(memory_[0], formats_[0], i), number_at(memory_[1], formats_[1], i),
-                number_at(memory_[2], formats_[2], i)};
-    }
-
-private:
-    std::vector<PlaneFormat> formats_;
-    std::vector<const std::byte*> memory_;
-};
 
 /// The pixels at which errors are taken.
 std::vector<std::size_t> sample_of(const BenchFrame& frame) {
@@ -197,7 +70,7 @@ BenchFrame resolve_frame(Size size) {
 /// Records a contender, by its normals in `job`. `tangent`: what it resolved is the part of gradients that is tangent
 /// to the normal.
 void record(Run& run, const char* name, const Contender& contender, int lanes, const BenchFrame& frame,
-            const std::vector<std::size_t>& pixels, Job& job, bool tangent, double bytes) {
+            const std::vector<std::size_t>& pixels, StoredPass& job, bool tangent, double bytes) {
     const Plan& plan = job.pass.impl().plan;
     const StoredVectors out(job.out, plan.output_formats, "normal.x");
     std::vector<double> errors;
@@ -226,9 +99,9 @@ void measure_storage(const Device& device, Size size, Run& run) {
     scene.filter.taps = 1;
     const BenchFrame frame = resolve_frame(size);
     const std::vector<std::size_t> pixels = sample_of(frame);
-    const std::vector<Way> all = ways();
-    std::vector<Job> jobs;
-    for (const Way& way : all) jobs.emplace_back(device, scene, frame, way);
+    const std::vector<StoredWay> all = ways();
+    std::vector<StoredPass> jobs;
+    for (const StoredWay& way : all) jobs.emplace_back(device, scene, frame, way);
 
     const BenchKernels stored(device, "storage.cl"), floats(device, "memory.cl");
     const char* const kernels[] = {"wr_resolve_only", "wr_resolve_halves", "wr_resolve_octahedral",

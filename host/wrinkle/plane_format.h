@@ -35,6 +35,10 @@ namespace [[gnu::visibility("default")]] wrinkle {
 /// What integers cannot hold is written as the nearest that they can, NaN as 0. An octahedral normal always has a
 /// direction, and no integer of unorm8 or unorm16 stands for 0 in -1 to 1: background is told by the depth then. The
 /// normals of invalid pixels come out of octahedral ones with a length between 0.5 and 1.
+///
+/// What that does to the mean over a pixel's area, of a height map of 0.05 m on a ground to the horizon at 16 taps:
+/// depth or texture coordinates as half, by which the map is placed, add a third or more to the median error;
+/// octahedral16 normals with the rest in floats add nothing (bench/README.md, "A pixel's area").
 enum class PlaneEncoding { float32, half, unorm8, unorm16, snorm8, snorm16, octahedral8, octahedral16, uint32 };
 
 /// How a plane is stored. Numbers have to lie at multiples of their size.
