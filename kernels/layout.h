@@ -94,6 +94,16 @@ typedef struct {
 #define WR_VOLUME_LEVELS 7  // how many coarser levels there are; 0: none
 #define WR_VOLUME_COARSER 8 // row of the table where they begin; rows of their products follow, two a level
 
+// Prefiltered pictures of skies (shade/sky.clh): texels along the finest level, levels, alpha of the finest, and by what it
+// grows from level to level; by how much the mean of each level's lobe of directions is shorter than 1.
+#define WR_SKY_SIZE 256
+#define WR_SKY_LEVELS 6
+#define WR_SKY_ALPHA 0.0125
+#define WR_SKY_ALPHA_RATIO 2.4
+#define WR_SKY_KNOTS {0.002216f, 0.009573f, 0.037252f, 0.118735f, 0.263605f, 0.370269f}
+// The table of GGX's lobes: along each side, over the root of the cosine to the normal and over the roughness.
+#define WR_LOBE_SIZE 32
+
 // Columns of a block of pixels (surface/pixel_block.clh), whose rows are loaded by vload4. Host and kernels count the
 // blocks of a frame by it.
 #define WR_BLOCK_WIDTH 4

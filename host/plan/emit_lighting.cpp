@@ -21,6 +21,13 @@ bool specular_apart(const Emitter& emitter) {
     return emitter.scene.lighting.relight == Relight::ratio && has_part(emitter, "specular");
 }
 
+/// Whether lit_sky is what surfaces send on of the sky, not the irradiance / pi that falls on them. Surfaces of an edge
+/// have albedos of their own, and what is added up is the light that they send on; and what they mirror does not depend
+/// on the albedo.
+bool sky_is_sent_on(const Emitter& emitter) {
+    return sums_light(emitter) || (mirrors_sky(emitter) && !specular_apart(emitter));
+}
+
 }  // namespace
 
 std::vector<LitTerm> lit_terms(const Emitter& emitter) {
@@ -33,15 +40,20 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
             "lighting->f0, {}, {}))",
             lights, diffuse ? 1 : 0, specular ? 1 : 0);
     };
-    if (emitter.scene.lighting.relight != Relight::ratio)
-        return {
-            {"lit", fmt::format("wr_light_surface({{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights{})",
-                                table ? ", light_table, light_tile, valid" : "")}};
-    // Surfaces of an edge have albedos of their own, and what is added up is the light that they send on.
-    const char* const sky =
-        sums_light(emitter) ? "wr_multiply3(albedo, wr_sky(lighting, {n}, base))" : "wr_sky(lighting, {n}, base)";
-    std::vector<LitTerm> terms{{"lit_sky", sky}};
-    const bool apart = specular_apart(emitter);
+    const bool mirrors = mirrors_sky(emitter), apart = specular_apart(emitter);
+    const auto with_gloss = [](const std::string& light) {
+        return fmt::format("wr_add({}, {})", light, kMirroredSkies);
+    };
+    if (emitter.scene.lighting.relight != Relight::ratio) {
+        const std::string lit =
+            fmt::format("wr_light_surface({{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights{})",
+                        table ? ", light_table, light_tile, valid" : "");
+        return {{"lit", mirrors ? with_gloss(lit) : lit}};
+    }
+    const std::string sky =
+        sky_is_sent_on(emitter) ? "wr_multiply3(albedo, wr_sky(lighting, {n}, base))" : "wr_sky(lighting, {n}, base)";
+    std::vector<LitTerm> terms{{"lit_sky", mirrors && !apart ? with_gloss(sky) : sky}};
+    if (mirrors && apart) terms.push_back({"lit_gloss", kMirroredSkies});
     const std::size_t last = pictures_of(emitter.scene.lighting).size() + (apart ? 1 : 0);
     for (std::size_t k = 0; k <= last; ++k)  // no picture shows lights of a table
         terms.push_back(
@@ -104,6 +116,31 @@ std::string mirrored_text(Emitter& emitter, Section& section, const std::vector<
            "        rest = wr_sub(rest, mirrored);\n";
 }
 
+/// Text that adds the change of `mirrored`, of which lights give the value called `lit`.
+std::string shine_text(const Emitter& emitter, Section& section, const char* lit) {
+    const bool read = emitter.scene.lighting.shadows == Shadows::read, gloss = mirrors_sky(emitter);
+    const auto change = [](const std::string& of, const std::string& now, const std::string& old) {
+        return fmt::format(
+            "        change = wr_add(change, wr_relight_change({}, {}, {},\n            lighting->max_ratio));\n", of,
+            now, old);
+    };
+    const std::string old = old_name(lit);
+    if (read) {
+        const std::string shine = fmt::format("wr_min(wr_scale({}, reached), mirrored)", old);
+        // What mirrors all around stays as it is where nothing tells what is there to mirror.
+        return change(shine, lit, old) +
+               (gloss ? change(fmt::format("wr_sub(mirrored, {})", shine), "lit_gloss", "old_lit_gloss") : "");
+    }
+    if (gloss)
+        return change("mirrored", fmt::format("wr_add({}, lit_gloss)", lit),
+                      fmt::format("wr_add({}, old_lit_gloss)", old));
+    const bool summed = sums_light(emitter);
+    if (summed) section.reads.insert("around");
+    return fmt::format("        {} = wr_scale({}, (wr_real)(lighting->f0));\n", summed ? "around" : "wr_vec3 around",
+                       summed ? "around" : "old_lit_sky") +
+           change("mirrored", fmt::format("wr_add({}, around)", lit), fmt::format("wr_add({}, around)", old));
+}
+
 /// Text that declares `left`: 1 where the picture is to stay as it is.
 std::string left_text(Emitter& emitter, Section& section) {
     const MaskPlace place{"leave in [lighting]", "leave in [lighting]",
@@ -130,10 +167,10 @@ std::string relight_text(Emitter& emitter, Section& section) {
         text += load_text(section, "emission", {"emission.r", "emission.g", "emission.b"}) +
                 "        emission = wr_max(emission, wr_zero3());\n"
                 "        rest = wr_sub(rest, emission);\n";
-    const bool apart = specular_apart(emitter), summed = sums_light(emitter);
+    const bool apart = specular_apart(emitter), sent_on = sky_is_sent_on(emitter);
     const bool read = emitter.scene.lighting.shadows == Shadows::read;
     text += fmt::format("        rest = wr_max(rest, wr_zero3());\n        wr_vec3 sky = {};\n",
-                        summed ? "old_lit_sky" : "wr_multiply3(albedo, old_lit_sky)");
+                        sent_on ? "old_lit_sky" : "wr_multiply3(albedo, old_lit_sky)");
     if (apart) text += mirrored_text(emitter, section, pictures);
     if (read)
         text +=
@@ -147,17 +184,8 @@ std::string relight_text(Emitter& emitter, Section& section) {
             "        lit = wr_add(lit, {});\n"
             "        change = wr_add(change, wr_relight_change(rest, lit, wr_add(old_lit, sky), "
             "lighting->max_ratio));\n",
-            summed ? "lit_sky" : "wr_multiply3(albedo, lit_sky)");
-    // What mirrors the sky and all around stays as it is: nothing tells what is there to mirror.
-    if (summed && apart && !read) section.reads.insert("around");
-    if (apart)
-        text += fmt::format(
-            fmt::runtime(read ? "        change = wr_add(change, wr_relight_change(wr_min(wr_scale(old_{0}, reached), "
-                                "mirrored), {0}, old_{0},\n            lighting->max_ratio));\n"
-                              : "        {1} = wr_scale({2}, (wr_real)(lighting->f0));\n"
-                                "        change = wr_add(change, wr_relight_change(mirrored, wr_add({0}, around), "
-                                "wr_add(old_{0}, around),\n            lighting->max_ratio));\n"),
-            lit_name(pictures.size() + 1), summed ? "around" : "wr_vec3 around", summed ? "around" : "old_lit_sky");
+            sent_on ? "lit_sky" : "wr_multiply3(albedo, lit_sky)");
+    if (apart) text += shine_text(emitter, section, lit_name(pictures.size() + 1));
     // Metal mirrors what is around it, which nobody knows: it stays as it is.
     if (emitter.has("metallic")) {
         section.inputs.insert("metallic");
@@ -199,7 +227,7 @@ Section emit_light_terms(Emitter& emitter, const LightEnd& end) {
     section.summed = true;
     section.operations = kLight * lights_of_pixel(emitter);
     section.body = lit_surface_text(emitter, section);
-    if (specular_apart(emitter) && emitter.scene.lighting.shadows != Shadows::read) {
+    if (specular_apart(emitter) && emitter.scene.lighting.shadows != Shadows::read && !mirrors_sky(emitter)) {
         section.writes.insert("around");
         section.body += "        around = wr_select(valid, wr_sky(lighting, base, base), wr_zero3());\n";
     }

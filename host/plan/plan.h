@@ -101,7 +101,9 @@ enum class TexelKind {
     mask,
     vector,
     volume,
-    volume_smooth
+    volume_smooth,
+    sky,   ///< as surfaces mirror it; without a file one of two colours
+    lobes  ///< the table of GGX's lobes, of no file
 };
 struct PlannedTexture {
     TextureUse use;

@@ -156,6 +156,13 @@ bool has_light_table(const Emitter& emitter);
 
 /// Whether lights of the scene have an extent, for which kernels are compiled.
 bool lights_extend(const Emitter& emitter);
+/// Whether surfaces mirror skies of the scene, for which kernels are compiled.
+bool mirrors_sky(const Emitter& emitter);
+/// Adds the function to the plan's helpers that gives what surfaces mirror of the scene's skies, if there are some.
+void add_mirrored_skies(Emitter& emitter);
+/// The text of its call, with {n} and {roughness} for what stands there.
+inline constexpr const char* kMirroredSkies =
+    "wr_mirrored_skies({n}, base, v, {roughness}, lighting->f0, texels, textures, numbers)";
 /// Lights that a pixel is expected to have: all without a table, and a few of it.
 double lights_of_pixel(const Emitter& emitter);
 /// What is known when the lighting is reached.

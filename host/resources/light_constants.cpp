@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 #include "scene/light_extent.h"
+#include "scene/sky_axes.h"
 
 namespace wrinkle {
 
@@ -99,15 +100,8 @@ void add_sky_colours(double (&sky)[27], const Light& light) {
 /// Adds the irradiance / pi of a sky's picture. Its polynomials become those of world space: the linear ones a vector,
 /// the quadratic ones a form without trace, in axes of which z is the sky's `up`.
 void add_sky_picture(double (&sky)[27], const Light& light) {
-    const Vec3 up = normalize(light.up), x{1, 0, 0};
-    const Vec3 left = normalize(cross(up, parallel(up, x) ? Vec3{0, 1, 0} : x)), front = cross(left, up);
-    const double cosine = std::cos(light.rotation), sine = std::sin(light.rotation);
-    Vec3 ahead, aside;
-    for (std::size_t i = 0; i < 3; ++i) {
-        ahead[i] = front[i] * cosine + left[i] * sine;
-        aside[i] = left[i] * cosine - front[i] * sine;
-    }
-    const Vec3* const axes[] = {&ahead, &aside, &up};
+    const scene::SkyAxes of_sky = scene::sky_axes(light);
+    const std::array<Vec3, 3> axes{of_sky.ahead, of_sky.aside, of_sky.up};
     for (std::size_t c = 0; c < 3; ++c) {
         std::array<double, 9> k{};
         for (std::size_t i = 0; i < 9; ++i) k[i] = (*light.harmonics)[i][c] * light.intensity;
@@ -116,10 +110,10 @@ void add_sky_picture(double (&sky)[27], const Light& light) {
         const auto turned = [&](std::size_t i, std::size_t j) {
             double sum = 0;
             for (std::size_t a = 0; a < 3; ++a)
-                for (std::size_t b = 0; b < 3; ++b) sum += (*axes[a])[i] * form[a][b] * (*axes[b])[j];
+                for (std::size_t b = 0; b < 3; ++b) sum += axes[a][i] * form[a][b] * axes[b][j];
             return sum;
         };
-        const auto linear = [&](std::size_t i) { return k[1] * ahead[i] + k[2] * aside[i] + k[3] * up[i]; };
+        const auto linear = [&](std::size_t i) { return k[1] * axes[0][i] + k[2] * axes[1][i] + k[3] * axes[2][i]; };
         const double terms[] = {k[0],
                                 linear(0),
                                 linear(1),

@@ -9,6 +9,7 @@
 #include "base/limits.h"
 #include "io/texture_doubts.h"
 #include "io/volume_file.h"
+#include "resources/sky_levels.h"
 #include "resources/volume_heap.h"
 #include "wrinkle/error.h"
 
@@ -195,6 +196,8 @@ TextureHeap load_textures(const std::vector<PlannedTexture>& planned) {
         return image;
     };
     const auto load = [&](const PlannedTexture& texture) {
+        if (texture.kind == TexelKind::sky) return add_sky_levels(heap, texture.use.file);
+        if (texture.kind == TexelKind::lobes) return add_lobes(heap);
         if (texture.kind == TexelKind::volume || texture.kind == TexelKind::volume_smooth) {
             const Volume volume = load_volume(texture.use.file, texture.grid);
             if ((volume.info.channels == 3) != texture.vectors)  // the file is another one than when it was planned

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scene/column_values.h"
-#include "scene/light_extent.h"
+#include "scene/light_rules.h"
 
 namespace wrinkle::scene {
 namespace {
@@ -77,22 +77,21 @@ constexpr Column<Light> columns[] = {
 void check_together(const Light& light, const Wrong& wrong) {
     if (!light.picture.empty() || !light.diffuse.empty() || !light.specular.empty())
         wrong({}, "a light of a table has no picture of its own; make it a [[light]] of the scene");
-    if (light.kind == LightKind::disc && !(light.radius > 0)) wrong({"radius"}, "must be positive for a disc");
-    if (light.kind == LightKind::rectangle && !(light.size[0] > 0 && light.size[1] > 0))
-        wrong({"width", "height"}, "must be positive for a rectangle");
     const bool round = light.kind == LightKind::disc || light.kind == LightKind::sphere;
     if (!round && light.radius > 0) wrong({"radius"}, "is of a disc or a sphere; give the column kind");
     if (light.kind != LightKind::rectangle && (light.size[0] > 0 || light.size[1] > 0))
         wrong({"width", "height"}, "are of a rectangle; give the column kind");
-    if (light.kind == LightKind::rectangle && !crosses(light.up, light.direction))
-        wrong({"up_x", "up_y", "up_z"}, "must not be zero or along the direction; it is the way the height goes");
-    if (light.kind == LightKind::point || light.kind == LightKind::sphere) return;
-    if (light.direction == Vec3{})
-        wrong({"direction_x", "direction_y", "direction_z"}, "must not be zero; it is the way the light travels");
-    if (light.kind == LightKind::spot && !(light.inner_angle < light.outer_angle))
-        wrong({"inner_angle", "outer_angle"},
-              fmt::format("must leave inner_angle ({:.4g}) less than outer_angle ({:.4g} degrees from the axis)",
-                          to_degrees(light.inner_angle), to_degrees(light.outer_angle)));
+    check_light(light, [&](std::initializer_list<const char*> keys, const std::string& text) {
+        const std::string_view first = *keys.begin();
+        if (first == "size")
+            wrong({"width", "height"}, text);
+        else if (first == "direction")
+            wrong({"direction_x", "direction_y", "direction_z"}, text);
+        else if (first == "up")
+            wrong({"up_x", "up_y", "up_z"}, text);
+        else
+            wrong(keys, text);
+    });
 }
 
 }  // namespace

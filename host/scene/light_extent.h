@@ -31,6 +31,11 @@ inline bool has_extent(const Light& light) {
     }
 }
 
+/// Whether surfaces show a sky as highlights: a kernel is compiled for each that they do.
+inline bool is_mirrored(const Light& light) {
+    return light.kind == LightKind::sky && light.highlights && !(light.harmonics && light.texture.empty());
+}
+
 /// Whether any light of a scene is: kernels are compiled for that.
 inline bool any_extent(const Lighting& lighting) {
     return std::ranges::any_of(lighting.lights, has_extent) ||

@@ -1,11 +1,7 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
-#include "base/names.h"
-#include "io/image_open.h"
-#include "wrinkle/error.h"
+#include "io/sky_picture.h"
 #include "wrinkle/lighting.h"
 
 namespace wrinkle {
@@ -48,55 +44,24 @@ double factor(std::size_t k) {
     return (k == 7 ? 15.0 : 5.0) / 16 * over;
 }
 
-/// The places of red, green and blue among the channels.
-std::array<int, 3> colours(const OIIO::ImageSpec& spec, const std::string& file) {
-    std::array<int, 3> places{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-    if (std::ranges::min(places) < 0)
-        throw Error(fmt::format("{}: is no picture of a sky: it has no channels R, G and B", file));
-    return places;
-}
-
 }  // namespace
 
 SkyHarmonics load_sky(const std::filesystem::path& file) {
-    const io::OpenImage image(file);
-    const OIIO::ImageSpec& spec = image.input().spec();
-    const std::string name = file.string();
-    if (!spec.format.is_floating_point())
-        throw Error(
-            fmt::format("{}: holds integers, which are colours for a display; a sky has to be light, in EXR or "
-                        "Radiance's HDR",
-                        name));
-    if (spec.tile_width != 0)
-        throw Error(
-            fmt::format("{}: is stored in tiles; a sky is read in rows (oiiotool FILE --scanline -o SKY.exr)", name));
-    if (spec.width != 2 * spec.height || spec.height < 1)
-        throw Error(fmt::format(
-            "{}: is {} x {}; a picture of all directions, by longitude and latitude, is twice as wide as high", name,
-            spec.width, spec.height));
-    const std::array<int, 3> places = colours(spec, name);
-    const auto width = static_cast<std::size_t>(spec.width), channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> row(width * channels);
     SkyHarmonics sky{};
-    for (int y = 0; y < spec.height; ++y) {
-        if (!image.input().read_scanline(spec.y + y, spec.z, OIIO::TypeFloat, row.data()))
-            throw Error(fmt::format("{}: cannot be read from row {} on: {}", name, y, image.input().geterror()));
-        const auto sine = [&](int edge) { return std::cos(std::numbers::pi * edge / spec.height); };
-        const RowIntegrals integrals(sine(y), sine(y + 1));
-        for (std::size_t x = 0; x < width; ++x) {
-            const auto angle = [&](std::size_t edge) {
-                return std::numbers::pi * (1 - 2 * static_cast<double>(edge) / static_cast<double>(width));
+    io::read_sky(file, [&](const io::SkyRow& row) {
+        const auto sine = [&](int edge) { return std::cos(std::numbers::pi * edge / row.height); };
+        const RowIntegrals integrals(sine(row.y), sine(row.y + 1));
+        for (int x = 0; x < row.width; ++x) {
+            const auto angle = [&](int edge) {
+                return std::numbers::pi * (1 - 2 * static_cast<double>(edge) / row.width);
             };
             const Row weights = integrals.pixel(angle(x + 1), angle(x));
             for (std::size_t c = 0; c < 3; ++c) {
-                const double radiance = double{row[x * channels + static_cast<std::size_t>(places[c])]};
-                if (!(radiance >= 0 && radiance <= 3e38))
-                    throw Error(
-                        fmt::format("{}: pixel ({}, {}) is {}; light is 0 or a positive number", name, x, y, radiance));
+                const double radiance = double{row.rgb[3 * static_cast<std::size_t>(x) + c]};
                 for (std::size_t k = 0; k < 9; ++k) sky[k][c] += radiance * weights[k] * factor(k);
             }
         }
-    }
+    });
     return sky;
 }
 

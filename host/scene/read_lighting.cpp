@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "base/vec.h"
@@ -7,6 +8,7 @@
 #include "scene/light_columns.h"
 #include "scene/light_extent.h"
 #include "scene/light_json.h"
+#include "scene/light_rules.h"
 #include "scene/readers.h"
 #include "scene/row_reader.h"
 #include "wrinkle/error.h"
@@ -37,8 +39,7 @@ void read_position(Table& table, Light& light) {
 
 void read_direction(Table& table, Light& light) {
     table.require("direction");
-    if (table.read("direction", light.direction) && light.direction == Vec3{})
-        table.complain("direction", "must not be zero; it is the way the light travels");
+    table.read("direction", light.direction);
     light.direction = normalize(light.direction);
 }
 
@@ -67,6 +68,7 @@ void read_sky(Table& table, Light& light) {
         table.complain("up", "must not be zero; it is where the zenith is");
     light.up = normalize(light.up);
     table.read("intensity", light.intensity, not_negative);
+    table.read("highlights", light.highlights);
     for (const char* key : {"texture", "rotation", "zenith", "horizon", "ground"}) table.know(key);
     if (table.visits() ? light.harmonics.has_value() : table.has("texture")) return read_sky_picture(table, light);
     if (table.has("rotation")) table.complain("rotation", "has no effect without texture, which it turns");
@@ -104,13 +106,6 @@ void read_spot(Table& table, Light& light) {
     read_direction(table, light);
     table.read_degrees("inner_angle", light.inner_angle, {.low = 0, .high = 180});
     table.read_degrees("outer_angle", light.outer_angle, {.low = 0, .high = 180});
-    const bool is_sound = !table.is_bad("inner_angle") && !table.is_bad("outer_angle");
-    if (is_sound && !(light.inner_angle < light.outer_angle)) {
-        table.complain(
-            table.has("outer_angle") ? "outer_angle" : "inner_angle",
-            fmt::format("must leave inner_angle ({:.4g}) less than outer_angle ({:.4g} degrees from the axis)",
-                        to_degrees(light.inner_angle), to_degrees(light.outer_angle)));
-    }
 }
 
 void read_sphere(Table& table, Light& light) {
@@ -125,7 +120,7 @@ void read_disc(Table& table, Light& light) {
     read_lamp(table, light);
     read_direction(table, light);
     table.require("radius");
-    table.read("radius", light.radius, positive);
+    table.read("radius", light.radius, not_negative);
 }
 
 void read_rectangle(Table& table, Light& light) {
@@ -133,11 +128,9 @@ void read_rectangle(Table& table, Light& light) {
     read_lamp(table, light);
     read_direction(table, light);
     table.require("size");
-    table.read("size", light.size, positive);
+    table.read("size", light.size, not_negative);
     table.require("up");
-    const bool sound = table.read("up", light.up) && !table.is_bad("direction");
-    if (sound && !crosses(light.up, light.direction))
-        table.complain("up", "must not be zero or along direction; it is the way the height goes");
+    table.read("up", light.up);
 }
 
 constexpr Kind<Light> kinds[] = {
@@ -159,6 +152,10 @@ void visit_light_table(Table& table, const Lighting& lighting) {
 
 void read_light_table(Table& table, Lighting& out) {
     table.compiled_in("lights with an extent", any_extent(out));
+    std::string mirrored;
+    for (const Light& light : out.lights)
+        if (is_mirrored(light)) mirrored += fmt::format("{}, ", quote(light.texture.string()));
+    table.compiled_in("skies with highlights", mirrored);
     if (table.visits()) return visit_light_table(table, out);
     if (!table.read_file("lights", out.table_file)) return;
     if (out.relight == Relight::off && !table.is_bad("relight"))
@@ -182,6 +179,13 @@ void read_light(Table& table, Light& out) {
                               : held < std::size(kinds) ? &kinds[held]
                                                         : nullptr;
     read_as_kind<Light>(table, kinds, kind, out);
+    if (kind == nullptr) return;
+    check_light(out, [&](std::initializer_list<const char*> keys, const std::string& text) {
+        if (std::ranges::any_of(keys, [&](const char* key) { return table.is_bad(key); })) return;
+        const auto* const given = std::ranges::find_if(keys, [&](const char* key) { return table.has(key); });
+        if (given == keys.end() && !table.visits()) return;  // it is required, and reported as such
+        table.complain(given == keys.end() ? *keys.begin() : *given, text);
+    });
 }
 
 void read_lighting(Table& table, Lighting& out) {

@@ -46,6 +46,8 @@ struct Light {
     double radius = 0;         ///< metres; sphere (0: a point), disc
     std::array<double, 2> size{};     ///< metres, width and height; rectangle
     std::filesystem::path texture{};  ///< sky: the picture that harmonics are from; empty for those made in code
+    /// sky: whether surfaces mirror it; of a sky with harmonics only where `texture` names the picture
+    bool highlights = false;
     double rotation = 0;  ///< sky: radians by which the picture turns around up, counter-clockwise seen from above
     /// sky: what a picture of all directions makes of it, in place of zenith, horizon and ground; see load_sky
     std::optional<SkyHarmonics> harmonics{};

@@ -22,6 +22,7 @@
 #include "tests/fuzz/npy_fuzz.cpp"
 #include "tests/fuzz/nvdb_fuzz.cpp"
 #include "tests/fuzz/scene_fuzz.cpp"
+#include "tests/fuzz/sky_fuzz.cpp"
 #include "tests/fuzz/texture_fuzz.cpp"
 
 namespace wrinkle::test {
@@ -44,6 +45,7 @@ const std::map<std::string, Harness> kHarnesses{
     {"npy_fuzz", npy_fuzz},
     {"nvdb_fuzz", nvdb_fuzz},
     {"scene_fuzz", scene_fuzz},
+    {"sky_fuzz", sky_fuzz},
     {"texture_fuzz", texture_fuzz},
 };
 

@@ -159,11 +159,11 @@ TEST_F(LightTable, LightsByThemselvesHaveExtentsToo) {
     const std::string sun = "[lighting]\nrelight = \"lit\"\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n";
     EXPECT_NEAR(load_with(sun + "angle = 0.5\n").lighting.lights[0].angle, 0.5 * degree, 1e-15);
     expect_problem_with(sun + "angle = 175\n", 10, {"\"angle\" in [[light]] 1 must be at least 0 and at most 170"});
-    expect_problem_with(flat + "\"disc\"\nradius = 0\n", 11, {"\"radius\" in [[light]] 1 must be greater than 0"});
+    expect_problem_with(flat + "\"disc\"\nradius = 0\n", 11, {"\"radius\" in [[light]] 1 must be positive for a disc"});
     expect_problem_with(flat + "\"disc\"\n", 7, {"[[light]] 1 needs the key \"radius\""});
     expect_problem_with(flat + "\"rectangle\"\nsize = [2, 3]\nup = [0, 0, 2]\n", 12,
-                        {"\"up\" in [[light]] 1 must not be zero or along direction"});
-    expect_problem_with(flat + "\"rectangle\"\nsize = [2, -3]\nup = [0, 1, 0]\n", 11, {"\"size\"", "greater than 0"});
+                        {"\"up\" in [[light]] 1 must not be zero or along the direction"});
+    expect_problem_with(flat + "\"rectangle\"\nsize = [2, 0]\nup = [0, 1, 0]\n", 11, {"\"size\"", "must be positive"});
 }
 
 TEST_F(LightTable, LightsByThemselvesHaveRangesToo) {

@@ -1,4 +1,6 @@
 // Skies of pictures: their harmonics, against brute force over the picture.
+#include <OpenImageIO/imagebuf.h>
+
 #include <cmath>
 
 #include "layers/kinds.h"
@@ -75,6 +77,16 @@ TEST_F(Sky, LightsAsItsPictureDoes) {
         EXPECT_NEAR(irradiance(sky, n).z, 4 * irradiance(sky, n).x, 1e-6);
         EXPECT_NEAR(irradiance(other, n).x, brute(day, n), 0.03 * brute(day, n));
     }
+}
+
+TEST_F(Sky, IsReadFromTilesAsFromRows) {
+    const auto radiance = [](V d) { return 2 + d.x - 0.5 * d.y + 0.3 * d.z; };
+    const std::filesystem::path rows = picture(20, radiance), tiles = folder_ / "tiles.exr";
+    OIIO::ImageBuf image(rows.string());
+    image.set_write_tiles(16, 16);
+    ASSERT_TRUE(image.write(tiles.string())) << image.geterror();
+    ASSERT_EQ(OIIO::ImageBuf(tiles.string()).spec().tile_width, 16);
+    EXPECT_EQ(load_sky(rows), load_sky(tiles));
 }
 
 TEST_F(Sky, TurnsAroundItsUp) {
