@@ -40,11 +40,15 @@ def modes(scene):
     told = tomllib.loads(scene.read_text())
     head = scene.read_text().split("[lighting]")[0]
     head = re.sub(r'"(\.\.?/[^"]*)"', lambda found: f'"{(scene.parent / found[1]).resolve()}"', head)
-    keys, read = told["lighting"], told["lighting"] | {"shadows": "read"}
+    keys, read, ignored = (told["lighting"] | more for more in ({}, {"shadows": "read"}, {"shadows": "ignored"}))
     lights = told["light"]
     lamps = [light for light in lights if light["kind"] != "sky"]
     bare, bare_lamps = _without_pictures(lights), _without_pictures(lamps)
+    other_unit = [light | {"intensity": 0.2 * light.get("intensity", 1)} for light in bare_lamps]
+    yield Mode("known lights, no sky, shadows ignored", head + _lighting(ignored, bare_lamps), 0.7)
+    yield Mode("known lights and sky, shadows ignored", head + _lighting(ignored, bare), 0.7)
     yield Mode("known lights, no sky", head + _lighting(keys, bare_lamps), 0.7)
+    yield Mode("known lights in another unit", head + _lighting(keys, other_unit), 0.7)
     yield Mode("known lights and sky", head + _lighting(keys, bare), 0.7)
     yield Mode("known lights, no sky, shadows read", head + _lighting(read, bare_lamps), 0.7)
     yield Mode("known lights and sky, shadows read", head + _lighting(read, bare), 0.7)

@@ -159,7 +159,7 @@ void explain(const ExplainArguments& arguments) {
     if (arguments.max_error) scene.budget.max_error = arguments.max_error;
     check_frame_pattern(frame_files(file), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
-    if (wants_lights(scene)) scene = with_lights(scene, lights_of_frame(scene, number));
+    if (wants_lights(scene)) scene = with_lights(scene, find_lights(scene, number));
     GBufferReader reader = open_frame(scene, number);
     const FrameCamera camera = camera_of_frame(scene, reader, number, CameraCheck::none);
     const Frame frame = frame_of(scene, reader, camera);

@@ -61,11 +61,16 @@ void write_job(const JobArguments& arguments) {
     check_frame_pattern(frame_files(file), "--frames", true);
     check_output_name("[output] name =", file.scene.output.name, job.frames);
     const Engine& engine = *std::ranges::find(engines(), arguments.engine, &Engine::name);
-    if (wants_lights(file.scene))
+    if (wants_lights(file.scene) && file.scene.lighting.lights.empty())
         fmt::print(
             stderr,
             "wrinkle: warning: this scene names no light, so that each task fits its own to its first frame, and "
             "tasks will differ; write them into the scene first, by \"wrinkle fit-lights\"\n");
+    else if (wants_lights(file.scene))
+        fmt::print(
+            stderr,
+            "wrinkle: warning: each task tells from the picture of its first frame how strong the lights are, and "
+            "tasks may differ; give the lights in the picture's units, and shadows = \"read\" in [lighting]\n");
     if (file.scene.budget.max_area_error)
         fmt::print(stderr,
                    "wrinkle: warning: max_area_error is measured by each task on its first frame, and tasks may differ "

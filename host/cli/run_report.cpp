@@ -109,8 +109,7 @@ void print_table(const RenderReport& report) {
                report.frames == 1 ? "" : "s", megapixels, report.layers, report.layers == 1 ? "" : "s",
                report.device.name, report.device.lanes, report.device.lanes == 1 ? "" : "s");
     for (const std::string& camera : report.cameras) fmt::print("camera: {}\n", camera);
-    if (!report.lights.empty())
-        fmt::print("lights, fitted to the picture as the scene names none: {}\n", report.lights);
+    if (!report.lights.empty()) fmt::print("lights: {}\n", report.lights);
     fmt::print("\n  {:<22}{:>10}\n", "phase", "seconds");
     fmt::print("  {:<22}{:>10.3f}\n", "read", report.read);
     fmt::print("  {:<22}{:>10.3f}\n", "upload (textures)", report.upload);

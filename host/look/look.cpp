@@ -68,7 +68,7 @@ Scene Look::prepared(const Scene& scene) {
     out.output = {};
     out.output.roughness = out.output.dp_dx = out.output.dp_dy = out.output.marked = true;
     if (!wants_lights(out)) return out;
-    if (!lights_) lights_ = lights_of_frame(scene, number_);
+    if (!lights_) lights_ = find_lights(scene, number_);
     return with_lights(std::move(out), *lights_);
 }
 

@@ -71,7 +71,7 @@ private:
     std::unique_ptr<GBufferReader> reader_;
     FrameCamera camera_;
     int number_ = 0;
-    std::optional<FrameLights> lights_;
+    std::optional<FoundLights> lights_;
     std::shared_ptr<WholePlanes> planes_;
     std::optional<Pass> pass_, bare_;  ///< of the scene; of its lights alone
     Frame pass_for_;

@@ -94,7 +94,7 @@ TableRows origins(const ReportOf& report, const Look& look) {
                       {"device", fmt::format("{}, {} lanes", look.device().info.name, look.device().info.lanes)},
                       {"hash of all inputs", report.provenance}};
     for (const std::string& setting : report.set) rows.emplace_back("set", setting);
-    if (!run.lights.empty()) rows.emplace_back("lights, fitted", run.lights);
+    if (!run.lights.empty()) rows.emplace_back("lights", run.lights);
     for (const auto& file : run.files) rows.emplace_back("wrote", file.string());
     return rows;
 }

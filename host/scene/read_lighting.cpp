@@ -190,7 +190,8 @@ void read_light(Table& table, Light& out) {
 
 void read_lighting(Table& table, Lighting& out) {
     table.choose("relight", out.relight, {{"off", Relight::off}, {"lit", Relight::lit}, {"ratio", Relight::ratio}});
-    table.choose("shadows", out.shadows, {{"read", Shadows::read}, {"ignored", Shadows::ignored}});
+    table.choose("shadows", out.shadows,
+                 {{"automatic", Shadows::automatic}, {"read", Shadows::read}, {"ignored", Shadows::ignored}});
     table.read("ambient", out.ambient, not_negative);
     table.read("albedo", out.albedo, zero_to_one);
     table.read("roughness", out.roughness, zero_to_one);

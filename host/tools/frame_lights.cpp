@@ -3,170 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <optional>
-#include <random>
 
-#include "base/imath.h"
-#include "base/vec.h"
-#include "run/open_frame.h"
 #include "scene/light_json.h"
+#include "tools/frame_surfaces.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle {
 namespace {
 
-constexpr std::uint32_t kRows = 64;  // read at a time
-constexpr int kCells = 12;           // of normals along each of two axes of the octahedron
-constexpr std::size_t kMost = 4000;  // pixels, together
-constexpr float kDark = 0.02f;       // an albedo below this divides noise, and may be metal's
-constexpr float kMetallic = 0.1f;
+constexpr std::uint32_t kSomeRows = 8;                 // bands that are read to tell how strong named lights are
+constexpr std::size_t kMostNamed = 3;                  // lights whose strength is told from the picture
+constexpr double kExplained = 0.2, kLeastShare = 0.1;  // else their strength is a guess
 
-/// The cell of a unit normal on the octahedron, unfolded into a square.
-int cell_of(const Vec3& n) {
-    const double sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
-    double x = n[0] / sum, y = n[1] / sum;
-    if (n[2] < 0) {
-        const double fold = std::copysign(1 - std::abs(y), x);
-        y = std::copysign(1 - std::abs(x), y), x = fold;
-    }
-    const auto place = [](double v) { return std::clamp(static_cast<int>((v + 1) / 2 * kCells), 0, kCells - 1); };
-    return place(y) * kCells + place(x);
-}
-
-/// Draws as many from every cell, each surface of a cell with the same chance, by a seed of its own.
-class EvenDraw {
-public:
-    void add(const SeenSurface& surface) {
-        Cell& cell = cells_[cell_of(surface.normal)];
-        ++cell.seen;
-        if (cell.drawn.size() < kOfCell) return cell.drawn.push_back(surface);
-        if (const std::size_t at = std::uniform_int_distribution<std::size_t>(0, cell.seen - 1)(random_); at < kOfCell)
-            cell.drawn[at] = surface;
-    }
-    /// In an order without a pattern.
-    std::vector<SeenSurface> take() {
-        std::vector<SeenSurface> all;
-        const std::size_t each = std::clamp<std::size_t>(kMost / std::max<std::size_t>(cells_.size(), 1), 1, kOfCell);
-        for (auto& [number, cell] : cells_) {
-            std::ranges::shuffle(cell.drawn, random_);
-            const std::size_t count = std::min(cell.drawn.size(), each);
-            all.insert(all.end(), cell.drawn.begin(), cell.drawn.begin() + static_cast<std::ptrdiff_t>(count));
-        }
-        std::ranges::shuffle(all, random_);
-        return all;
-    }
-
-private:
-    static constexpr std::size_t kOfCell = 200;
-    struct Cell {
-        std::size_t seen = 0;
-        std::vector<SeenSurface> drawn;
-    };
-    std::map<int, Cell> cells_;
-    std::mt19937_64 random_{1};
-};
-
-/// The planes that a fit reads, those of some rows.
-class ReadRows {
-public:
-    ReadRows(const GBufferReader& reader, const std::vector<std::string>& wanted) : reader_(reader) {
-        for (const std::string& layer : wanted)
-            for (const std::string& plane : reader.planes())
-                if (plane == layer || plane.starts_with(layer + ".")) names_.push_back(plane);
-        for (const std::string& name : names_) planes_[name];
-    }
-
-    bool has(const std::string& plane) const { return planes_.contains(plane); }
-
-    std::size_t read(std::uint32_t first, std::uint32_t end) {
-        const std::size_t count = std::size_t{end - first} * reader_.size().width;
-        std::vector<float*> into;
-        for (const std::string& name : names_) {
-            planes_[name].resize(count);
-            into.push_back(planes_[name].data());
-        }
-        reader_.read_rows(first, end, names_, into);
-        return count;
-    }
-
-    float at(const std::string& plane, std::size_t i) const { return planes_.at(plane)[i]; }
-    Vec3 vec(const std::string& layer, const char* parts, std::size_t i) const {
-        const auto part = [&](int k) { return static_cast<double>(at(layer + "." + parts[k], i)); };
-        return {part(0), part(1), part(2)};
-    }
-    /// A part of the picture: by itself, or as direct and indirect light times a colour; black where none tells.
-    Vec3 part(const std::string& name, std::size_t i) const {
-        if (has(name + ".r")) return vec(name, "rgb", i);
-        if (!has_parts(name)) return {};
-        const Vec3 direct = vec(name + "_direct", "rgb", i), indirect = vec(name + "_indirect", "rgb", i),
-                   color = vec(name + "_color", "rgb", i);
-        Vec3 out{};
-        for (std::size_t c = 0; c < 3; ++c) out[c] = (direct[c] + indirect[c]) * color[c];
-        return out;
-    }
-    bool has_parts(const std::string& name) const {
-        return has(name + "_direct.r") && has(name + "_indirect.r") && has(name + "_color.r");
-    }
-
-private:
-    const GBufferReader& reader_;
-    std::vector<std::string> names_;
-    std::map<std::string, std::vector<float>> planes_;
-};
-
-/// Where pixels are in the world: by their depth as a pinhole camera sees it, or as the frame says; else nobody knows.
-class Places {
-public:
-    Places(const ReadRows& rows, const Frame& frame, Geometry geometry)
-        : rows_(rows), width_(frame.size.width), ray_depth_(frame.ray_depth) {
-        const bool by_position = geometry == Geometry::position && rows.has("position.x");
-        if (frame.planes.contains("depth") && !by_position) rays_ = pinhole_rays(frame.camera, frame.size);
-    }
-
-    /// Of pixel i of rows that begin with `first`.
-    std::optional<Vec3> at(std::size_t i, std::uint32_t first) const {
-        if (!rays_) {
-            if (!rows_.has("position.x")) return {};
-            return rows_.vec("position", "xyz", i);
-        }
-        const double x = static_cast<double>(i % width_) + 0.5, y = static_cast<double>(first + i / width_) + 0.5;
-        const Imath::V3d along = to_imath(rays_->d0) + x * to_imath(rays_->dx) + y * to_imath(rays_->dy);
-        const double depth = rows_.at("depth", i);
-        return to_array(to_imath(rays_->eye) + depth * (ray_depth_ ? direction(along) : along));
-    }
-
-private:
-    const ReadRows& rows_;
-    std::size_t width_;
-    bool ray_depth_;
-    std::optional<PinholeRays> rays_;
-};
-
-/// What a pixel shows as a surface; nothing where it shows none that tells of lights.
-std::optional<SeenSurface> surface_at(const ReadRows& rows, std::size_t i, const Vec3& albedo_of_scene) {
-    SeenSurface out{rows.vec("normal", "xyz", i), rows.vec("beauty", "rgb", i)};
-    const double length = std::sqrt(dot(out.normal, out.normal));
-    if (!(length > 0.5) || !std::isfinite(length)) return {};  // filtered away, or background
-    for (double& x : out.normal) x /= length;
-    if (rows.has("metallic") && !(rows.at("metallic", i) < kMetallic)) return {};
-    const Vec3 albedo = rows.has("albedo.r") ? rows.vec("albedo", "rgb", i) : albedo_of_scene;
-    std::array<Vec3, 3> others{};
-    std::size_t k = 0;
-    for (const char* part : {"emission", "transmission", "specular"}) others[k++] = rows.part(part, i);
-    for (std::size_t c = 0; c < 3; ++c) {
-        if (!(albedo[c] > kDark)) return {};
-        for (const Vec3& other : others) out.radiance[c] -= other[c];
-        out.radiance[c] = std::max(out.radiance[c], 0.0) / albedo[c];
-        if (!std::isfinite(out.radiance[c])) return {};
-    }
-    return out;
-}
-
-bool is_finite(const Vec3& v) {
-    return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
+/// The lights of a scene but for skies.
+std::vector<Light> lamps_of(const Lighting& lighting) {
+    std::vector<Light> lamps;
+    std::ranges::copy_if(lighting.lights, std::back_inserter(lamps),
+                         [](const Light& light) { return light.kind != LightKind::sky; });
+    return lamps;
 }
 
 /// How far numbers of a fit can be trusted, by what it leaves unexplained.
@@ -179,43 +33,63 @@ const char* trust(const LightFit& fit) {
 }  // namespace
 
 FrameLights lights_of_frame(const Scene& scene, int frame) {
-    GBufferReader reader = open_frame(scene, frame);
-    for (const char* role : {"normal", "beauty"})
-        if (!reader.has_role(role))
-            throw Error(fmt::format("{}: lights are fitted by the frame's picture and normals; it has no {}",
-                                    reader.path().string(), role));
-    const FrameCamera camera = camera_of_frame(scene, reader, frame);  // turns normals that are in its space
-    ReadRows rows(reader, {"depth", "position", "normal", "beauty", "albedo", "metallic", "emission", "transmission",
-                           "transmission_direct", "transmission_indirect", "transmission_color", "specular",
-                           "specular_direct", "specular_indirect", "specular_color"});
-    const Places places(rows, frame_of(scene, reader, camera), scene.gbuffer.geometry);
-    EvenDraw draw;
-    for (std::uint32_t first = 0; first < reader.size().height; first += kRows) {
-        const std::size_t count = rows.read(first, std::min(first + kRows, reader.size().height));
-        for (std::size_t i = 0; i < count; ++i)
-            if (auto surface = surface_at(rows, i, scene.lighting.albedo)) {
-                surface->place = places.at(i, first);
-                if (!surface->place || is_finite(*surface->place)) draw.add(*surface);
-            }
-    }
-    const std::vector<SeenSurface> surfaces = draw.take();
+    const FrameSurfaces seen = surfaces_of_frame(scene, frame);
     try {
-        return {fit_lights(surfaces), rows.has("albedo.r"), rows.has("specular.r") || rows.has_parts("specular")};
-    } catch (const Error& error) { throw Error(fmt::format("{}: {}", reader.path().string(), error.what())); }
+        return {fit_lights(seen.surfaces), seen.albedo, seen.specular};
+    } catch (const Error& error) { throw Error(fmt::format("{}: {}", seen.file, error.what())); }
 }
 
 bool wants_lights(const Scene& scene) {
     const Lighting& lighting = scene.lighting;
-    const bool named = !lighting.lights.empty() ||
-                       scene::is_json(lighting.table_file) ||  // one may say that there are none
-                       (lighting.table && !lighting.table->empty());
-    return lighting.relight == Relight::ratio && !named && lighting.ambient == Vec3{};
+    if (lighting.relight != Relight::ratio) return false;
+    const bool tables = scene::is_json(lighting.table_file) ||  // one may say that there are none
+                        (lighting.table && !lighting.table->empty());
+    if (tables) return false;
+    if (lighting.lights.empty()) return lighting.ambient == Vec3{};
+    const std::vector<Light> lamps = lamps_of(lighting);
+    const auto known = [](const Light& l) {
+        return (l.kind == LightKind::sun || l.kind == LightKind::point || l.kind == LightKind::sphere) && !l.range &&
+               l.picture.empty() && l.diffuse.empty() && l.specular.empty();
+    };
+    return lighting.shadows == Shadows::automatic && !lamps.empty() && lamps.size() <= kMostNamed &&
+           std::ranges::all_of(lamps, known);
 }
 
-Scene with_lights(Scene scene, const FrameLights& lights) {
-    scene.lighting.lights = lights.fit.lights;
-    scene.lighting.shadows = Shadows::read;
+FoundLights find_lights(const Scene& scene, int frame) {
+    if (scene.lighting.lights.empty()) return {.all = lights_of_frame(scene, frame)};
+    try {
+        const FrameSurfaces seen = surfaces_of_frame(scene, frame, kSomeRows);
+        const LightScale found = fit_scale(seen.surfaces, lamps_of(scene.lighting));
+        if (found.median < kExplained && found.share > kLeastShare) return {.named = found};
+        return {.why_not = fmt::format("of the picture's light they give {:.0f}%, and {:.0f}% are unexplained (median)",
+                                       100 * found.share, 100 * found.median)};
+    } catch (const Error& error) { return {.why_not = error.what()}; }
+}
+
+Scene with_lights(Scene scene, const FoundLights& found) {
+    Lighting& lighting = scene.lighting;
+    if (!found.all && !found.named) return scene;
+    lighting.shadows = Shadows::read;
+    if (found.all) {
+        lighting.lights = found.all->fit.lights;
+        return scene;
+    }
+    const bool sky = lighting.ambient != Vec3{} || lamps_of(lighting).size() < lighting.lights.size();
+    for (Light& light : lighting.lights) light.intensity *= found.named->scale;
+    for (double& part : lighting.ambient) part *= found.named->scale;
+    if (!sky) lighting.lights.push_back(found.named->sky);
     return scene;
+}
+
+std::string summary(const FoundLights& found) {
+    if (found.all) return "fitted to the picture as the scene names none: " + summary(*found.all);
+    if (found.named)
+        return fmt::format(
+            "{:.3g} times the scene's in the picture's units, so their shadows are read off it "
+            "({:.0f}% of the radiance unexplained, median; shadows = \"ignored\" does without)",
+            found.named->scale, 100 * found.named->median);
+    return "taken to reach every surface that faces them, as the picture does not tell how strong they are: " +
+           found.why_not;
 }
 
 std::string summary(const FrameLights& lights) {

@@ -43,7 +43,7 @@ bool FramesAhead::is_finished(int number, const std::string& provenance) const {
 /// that are fitted anew would flicker.
 std::shared_ptr<const Scene> FramesAhead::lit(const Scene& scene) {
     if (!wants_lights(scene)) return std::make_shared<const Scene>(scene);
-    if (!lights_) lights_ = lights_of_frame(scene, options_.frames.empty() ? 0 : options_.frames.front());
+    if (!lights_) lights_ = find_lights(scene, options_.frames.empty() ? 0 : options_.frames.front());
     return std::make_shared<const Scene>(with_lights(scene, *lights_));
 }
 

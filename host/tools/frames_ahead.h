@@ -49,7 +49,7 @@ private:
     PhaseClock& clock_;
     // Used by open() alone, which never runs twice at a time.
     std::shared_ptr<const Scene> shared_;
-    std::optional<FrameLights> lights_;
+    std::optional<FoundLights> lights_;
     std::future<FrameAhead> next_;  // last: the others have to outlive what it waits for
 };
 

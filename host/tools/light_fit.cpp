@@ -56,8 +56,8 @@ std::vector<Lamp> around(const Lamp& lamp, const Extent& extent, double degrees)
     return all;
 }
 
-/// Turns the sky's axis and moves one lamp after the other by ever smaller steps while that helps.
-Fit refined(const LightSolver& solver, Fit best, double step, double finest) {
+/// Turns the sky's axis by ever smaller steps while that helps, and moves one lamp after the other where they may move.
+Fit refined(const LightSolver& solver, Fit best, double step, double finest, bool lamps_move = true) {
     while (step >= finest) {
         bool better = false;
         const auto try_axes = [&](const Axes& axes) {
@@ -68,7 +68,7 @@ Fit refined(const LightSolver& solver, Fit best, double step, double finest) {
             turned.up = turn(turned.up, step, direction);
             try_axes(turned);
         }
-        for (std::size_t k = 0; k < best.axes.lamps.size(); ++k)
+        for (std::size_t k = 0; lamps_move && k < best.axes.lamps.size(); ++k)
             for (const Lamp& lamp : around(best.axes.lamps[k], solver.extent(), step)) {
                 Axes moved = best.axes;
                 moved.lamps[k] = lamp;
@@ -141,11 +141,35 @@ Fit with_lamp(const LightSolver& solver, const Axes& axes) {
     return !far && point->cost < kNear * sun->cost ? *point : *sun;
 }
 
+/// The light on all surfaces together of a lamp whose colour is 1.
+double reach(const LightSolver& solver, const Lamp& lamp) {
+    double sum = 0;
+    for (const SeenSurface& surface : solver.surfaces()) sum += solver.term(surface, lamp);
+    return sum;
+}
+
 /// A lamp's light on all surfaces together.
 double strength(const LightSolver& solver, const Fit& fit, std::size_t k) {
-    double sum = 0;
-    for (const SeenSurface& surface : solver.surfaces()) sum += solver.term(surface, fit.axes.lamps[k]);
-    return sum * fit.colours.row(static_cast<Eigen::Index>(kSky + k)).sum();
+    return reach(solver, fit.axes.lamps[k]) * fit.colours.row(static_cast<Eigen::Index>(kSky + k)).sum();
+}
+
+/// A lamp's power, W/m2 or W/sr, where its radiance on white is 1.
+double unit_of(const Lamp& lamp, const Extent& extent) {
+    return std::numbers::pi * (lamp.point ? extent.radius * extent.radius : 1);
+}
+
+Light sky_of(const Fit& fit) {
+    Light sky{.kind = LightKind::sky, .up = fit.axes.up};
+    sky.zenith = colour_of(fit, 0, 1), sky.horizon = colour_of(fit, 1, 1), sky.ground = colour_of(fit, 2, 1);
+    return sky;
+}
+
+/// What is off by more than a share of the surfaces are, as a share of the median radiance.
+double unexplained(const LightSolver& solver, const Fit& fit, double share) {
+    std::vector<double> off = fit.off;
+    std::ranges::sort(off);
+    return off[std::min(static_cast<std::size_t>(share * static_cast<double>(off.size())), off.size() - 1)] /
+           solver.scale();
 }
 
 /// The light of the weakest lamp, as a share of the strongest one's.
@@ -216,16 +240,13 @@ LightFit fit_lights(std::span<const SeenSurface> surfaces) {
 
     LightFit out;
     out.surfaces = surfaces.size();
-    Light sky{.kind = LightKind::sky, .up = best.axes.up};
-    sky.zenith = colour_of(best, 0, 1), sky.horizon = colour_of(best, 1, 1), sky.ground = colour_of(best, 2, 1);
-    out.lights.push_back(sky);
+    out.lights.push_back(sky_of(best));
     std::vector<std::size_t> order(best.axes.lamps.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::greater{}, [&](std::size_t k) { return strength(fine, best, k); });
     for (const std::size_t k : order) {
         const Lamp& lamp = best.axes.lamps[k];
-        const double radius = fine.extent().radius, unit = std::numbers::pi * (lamp.point ? radius * radius : 1);
-        const Vec3 power = colour_of(best, kSky + k, unit);
+        const Vec3 power = colour_of(best, kSky + k, unit_of(lamp, fine.extent()));
         const double most = *std::ranges::max_element(power);
         if (!(most > 0)) continue;
         Light light{.kind = lamp.point ? LightKind::point : LightKind::sun, .intensity = most};
@@ -238,10 +259,35 @@ LightFit fit_lights(std::span<const SeenSurface> surfaces) {
         out.loose.push_back(looseness(coarse, coarse.fit(best.axes), k));
         out.shadowed.push_back(dark_share(fine, best, k));
     }
-    std::vector<double> off = best.off;
-    std::ranges::sort(off);
-    out.median = off[off.size() / 2] / fine.scale(), out.p90 = off[off.size() * 9 / 10] / fine.scale();
+    out.median = unexplained(fine, best, 0.5), out.p90 = unexplained(fine, best, 0.9);
     return out;
+}
+
+LightScale fit_scale(std::span<const SeenSurface> surfaces, std::span<const Light> lamps) {
+    check_variety(surfaces);
+    const LightSolver solver(surfaces);
+    if (!(solver.scale() > 0)) throw Error("the strength of lights cannot be told: the picture is black");
+    Axes axes;
+    for (const Light& light : lamps) {
+        const bool point = light.kind != LightKind::sun;
+        if (point && !(solver.extent().radius > 0)) throw Error("where surfaces are is not known");
+        axes.lamps.push_back(point ? Lamp{light.position, true} : Lamp{normalize(subtract({}, light.direction))});
+    }
+    // Other programs have z or y up.
+    const Fit z = solver.fit(axes);
+    axes.up = {0, 1, 0};
+    const Fit y = solver.fit(axes);
+    const Fit best = refined(solver, z.cost <= y.cost ? z : y, 8, 1, false);
+    double found = 0, named = 0, all = 0;
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        const Lamp& lamp = best.axes.lamps[k];
+        const Vec3& color = lamps[k].color;
+        found += strength(solver, best, k);
+        named += reach(solver, lamp) * lamps[k].intensity * (color[0] + color[1] + color[2]) /
+                 unit_of(lamp, solver.extent());
+    }
+    for (const SeenSurface& s : surfaces) all += s.radiance[0] + s.radiance[1] + s.radiance[2];
+    return {named > 0 ? found / named : 0, found / all, unexplained(solver, best, 0.5), sky_of(best)};
 }
 
 }  // namespace wrinkle

@@ -58,13 +58,14 @@ enum class Relight { off, lit, ratio };
 
 /// How a picture that is relit tells where a light reaches that has no picture of its own.
 enum class Shadows {
+    automatic,  ///< read by `wrinkle run` where the picture tells how strong the lights are in its units; else ignored
     ignored,  ///< it does not: all light of the picture is shared out as if no light was shadowed, in any unit
     read      ///< off the picture, for lights in its units: what it shows beside the sky's, over what they would give
 };
 
 struct Lighting {
     Relight relight = Relight::off;
-    Shadows shadows = Shadows::ignored;  ///< Relight::ratio
+    Shadows shadows = Shadows::automatic;  ///< Relight::ratio
     Vec3 ambient{0, 0, 0};               ///< radiance from all around, beside that of skies
     Vec3 albedo{0.5, 0.5, 0.5};          ///< where the G-buffer has none
     double roughness = 0.5;              ///< where the G-buffer has none

@@ -229,7 +229,7 @@ struct Relit {
         rest = rest - shine;
         const auto sky_now = each([&](auto c) { return albedo.*c * sky.now.*c; });
         const auto sky_old = each([&](auto c) { return albedo.*c * sky.old.*c; });
-        if (lighting.shadows == Shadows::ignored) {
+        if (lighting.shadows != Shadows::read) {
             result = result + times_ratio(rest, {{}, others.now + sky_now, others.old + sky_old});
             const Vec<T> around = sky.old * T(lighting.f0);
             if (mirrored) result = result + times_ratio(shine, {{}, mirrored->now + around, mirrored->old + around});

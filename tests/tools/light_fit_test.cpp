@@ -180,9 +180,49 @@ TEST(FrameLights, OfARenderedFrameAreThoseItWasRenderedWith) {
     EXPECT_TRUE(lights.albedo);
     EXPECT_LE(degrees_between(lights.fit.lights[1].direction, scene.lighting.lights[0].direction), 6);
     EXPECT_NEAR(lights.fit.lights[1].intensity, 3.4, 0.7);
-    const Scene lit = with_lights(scene, lights);
+    const Scene lit = with_lights(scene, {.all = lights});
     EXPECT_EQ(lit.lighting.shadows, Shadows::read);
     EXPECT_EQ(lit.lighting.lights.size(), 2u);
+    EXPECT_FALSE(wants_lights(scene)) << "its sun has a picture of its own";
+}
+
+/// The torus and its known sun, without its own picture and without a sky.
+Scene named_sun() {
+    Scene scene = load_scene(std::filesystem::path(WRINKLE_SOURCE_DIR) / "bench/picture/relit.toml");
+    scene.lighting.lights.resize(1);
+    scene.lighting.lights[0].picture.clear();
+    return scene;
+}
+
+TEST(FrameLights, AreBroughtIntoThePicturesUnits) {
+    Scene scene = named_sun();
+    const double renders = scene.lighting.lights[0].intensity;
+    for (const double unit : {1.0, 0.01, 40.0}) {
+        scene.lighting.lights[0].intensity = renders * unit;
+        ASSERT_TRUE(wants_lights(scene));
+        const FoundLights found = find_lights(scene, 0);
+        fmt::print("{}\n", summary(found));
+        ASSERT_TRUE(found.named.has_value()) << found.why_not;
+        EXPECT_NEAR(found.named->scale * unit, 1, 0.15);
+        const Scene lit = with_lights(scene, found);
+        EXPECT_EQ(lit.lighting.shadows, Shadows::read);
+        EXPECT_NEAR(lit.lighting.lights[0].intensity, renders, 0.15 * renders);
+        ASSERT_EQ(lit.lighting.lights.size(), 2u) << "a sky was fitted beside it";
+        EXPECT_EQ(lit.lighting.lights[1].kind, LightKind::sky);
+        scene.lighting.ambient = {0.5 * unit, 0.5 * unit, 0.5 * unit};
+        EXPECT_EQ(with_lights(scene, find_lights(scene, 0)).lighting.lights.size(), 1u) << "the scene has its own";
+        scene.lighting.ambient = {};
+    }
+}
+
+TEST(FrameLights, ThatThePictureDoesNotShowStayAsTheyAre) {
+    Scene scene = named_sun();
+    for (double& x : scene.lighting.lights[0].direction) x = -x;  // from below
+    const FoundLights found = find_lights(scene, 0);
+    EXPECT_FALSE(found.named.has_value());
+    EXPECT_NE(found.why_not.find("% are unexplained"), std::string::npos) << found.why_not;
+    EXPECT_EQ(with_lights(scene, found).lighting.shadows, Shadows::automatic);
+    scene.lighting.shadows = Shadows::ignored;
     EXPECT_FALSE(wants_lights(scene));
 }
 
