@@ -32,6 +32,12 @@ std::uint32_t murmur3_32(std::string_view text) {
     return hash ^ hash >> 16;
 }
 
+/// A hash as id channels hold it: with a bit of the exponent flipped where it would be no normal float.
+std::uint32_t as_float_bits(std::uint32_t hash) {
+    const std::uint32_t exponent = hash >> 23 & 255;
+    return exponent == 0 || exponent == 255 ? hash ^ 1u << 23 : hash;
+}
+
 std::optional<std::uint32_t> parse_hex(std::string_view digits) {
     if (digits.size() != 8 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string_view::npos)
         return std::nullopt;
@@ -61,7 +67,7 @@ std::map<std::string, std::uint32_t, std::less<>> entries_of_damaged(std::string
             if (value == std::string_view::npos || text[value] != '"' || text.substr(value).size() < 10) continue;
             const auto id = parse_hex(text.substr(value + 1, 8));
             if (!id || text[value + 9] != '"') continue;
-            ids.emplace(text.substr(name_begin, end - name_begin), *id);
+            ids.emplace(text.substr(name_begin, end - name_begin), as_float_bits(*id));
             next = value + 10;
             break;
         }
@@ -101,10 +107,7 @@ std::string find_key(const Metadata& header, const std::string& layer) {
 
 }  // namespace
 
-std::uint32_t cryptomatte_hash(std::string_view name) {
-    const std::uint32_t hash = murmur3_32(name), exponent = hash >> 23 & 255;
-    return exponent == 0 || exponent == 255 ? hash ^ 1u << 23 : hash;
-}
+std::uint32_t cryptomatte_hash(std::string_view name) { return as_float_bits(murmur3_32(name)); }
 
 bool io::is_name_pattern(const std::string& name) {
     return !name.starts_with('#') && name.find_first_of("*?") != std::string::npos;
@@ -131,7 +134,8 @@ CryptomatteManifest::CryptomatteManifest(const Metadata& header, const std::stri
     }
     for (const auto& [name, value] : json.items()) {
         if (!value.is_string()) continue;
-        if (const auto id = parse_hex(value.get<std::string>())) ids_[name] = *id;
+        // Blender writes the hash itself, others what the channels hold.
+        if (const auto id = parse_hex(value.get<std::string>())) ids_[name] = as_float_bits(*id);
     }
 }
 

@@ -18,13 +18,28 @@ std::vector<std::string> pictures_of(const Lighting& lighting) {
     return pictures;
 }
 
-LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart) {
-    const auto number = [&](const std::string& lobe, std::size_t none) {
+LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart,
+                              std::size_t none) {
+    const auto number = [&](const std::string& lobe, std::size_t without) {
         const std::string& name = lobe.empty() ? light.picture : lobe;
-        if (name.empty()) return none;
+        if (name.empty()) return without;
         return static_cast<std::size_t>(std::ranges::find(pictures, name) - pictures.begin()) + 1;
     };
-    return {number(light.diffuse, 0), number(light.specular, specular_apart ? pictures.size() + 1 : 0)};
+    return {number(light.diffuse, none), number(light.specular, specular_apart ? pictures.size() + 1 : none)};
+}
+
+std::vector<std::size_t> lights_read_apart(const Lighting& lighting, bool specular_apart) {
+    constexpr std::size_t most = 3;
+    std::vector<std::size_t> apart;
+    if (lighting.relight != Relight::ratio || lighting.shadows != Shadows::read) return apart;
+    if (lighting.table && !lighting.table->empty()) return apart;
+    for (std::size_t i = 0; i < lighting.lights.size(); ++i) {
+        const Light& light = lighting.lights[i];
+        if (light.kind != LightKind::sky && light.picture.empty() && light.diffuse.empty()) apart.push_back(i);
+    }
+    const std::size_t before = pictures_of(lighting).size() + (specular_apart ? 1 : 0);
+    if (apart.size() < 2 || apart.size() > most || before + apart.size() > kMostPictures) apart.clear();
+    return apart;
 }
 
 const char* lit_name(std::size_t picture) {

@@ -17,7 +17,14 @@ std::vector<std::string> pictures_of(const Lighting& lighting);
 struct LightPictures {
     std::size_t diffuse = 0, specular = 0;
 };
-LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart);
+/// `none`: in place of 0.
+LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart,
+                              std::size_t none = 0);
+
+/// The lights whose shadows are read each apart, by their places among the scene's: those without a picture of what is
+/// diffuse, if they are two or three, as then the picture's colours tell which of them reach a pixel. Their numbers
+/// follow those of pictures, and that of what is specular. Empty: all have one number, 0.
+std::vector<std::size_t> lights_read_apart(const Lighting& lighting, bool specular_apart);
 
 /// The most of them that a scene may have.
 constexpr std::size_t kMostPictures = 16;

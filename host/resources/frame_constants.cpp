@@ -171,13 +171,19 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
     const Lighting& lighting = source.scene.lighting;
     const std::vector<std::string> pictures = pictures_of(lighting);
     std::copy(lighting.ambient.begin(), lighting.ambient.end(), out.lighting.sky);
-    for (const Light& light : lighting.lights) {
+    const std::vector<std::size_t> apart = lights_read_apart(lighting, plan.specular_apart);
+    const std::size_t shared = pictures.size() + (plan.specular_apart ? 1 : 0);
+    for (std::size_t i = 0; i < lighting.lights.size(); ++i) {
+        const Light& light = lighting.lights[i];
         if (light.kind == LightKind::sky) {
             add_sky(out.lighting.sky, light);
             continue;
         }
         out.lights.push_back(fill_light(light, eye));
-        const LightPictures numbers = picture_numbers(pictures, light, plan.specular_apart);
+        const auto place = std::ranges::find(apart, i);
+        const std::size_t none =
+            place == apart.end() ? 0 : shared + 1 + static_cast<std::size_t>(place - apart.begin());
+        const LightPictures numbers = picture_numbers(pictures, light, plan.specular_apart, none);
         out.lights.back().diffuse = static_cast<double>(numbers.diffuse);
         out.lights.back().specular = static_cast<double>(numbers.specular);
     }

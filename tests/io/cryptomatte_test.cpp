@@ -11,6 +11,17 @@ namespace {
 
 using namespace test;
 
+TEST(Cryptomatte, ManifestsOfHashesMeanTheFloatsThatChannelsHold) {
+    // The hash of "Box" has an exponent of 0, which would make a denormal; Blender writes it into the manifest as it is.
+    EXPECT_EQ(cryptomatte_hash("Box"), 0x80bb1009u);
+    Metadata header;
+    header.set("cryptomatte/1/name", "CryptoObject");
+    for (const char* manifest : {R"({"Box":"803b1009"})", R"({"Box":"80bb1009"})", R"({"Box":"803b1009")"}) {
+        header.set("cryptomatte/1/manifest", manifest);
+        EXPECT_EQ(CryptomatteManifest(header, "CryptoObject", "f.exr").id("Box"), 0x80bb1009u) << manifest;
+    }
+}
+
 TEST(Cryptomatte, HashesAsBlenderDoes) {
     EXPECT_EQ(cryptomatte_hash("Suzanne"), 0xcb432898u);
     EXPECT_EQ(cryptomatte_hash("Torus"), 0x789a1936u);

@@ -125,6 +125,16 @@ Evaluated<T> SceneEvaluator<T>::evaluate(std::size_t i) const {
     return out;
 }
 
+/// Lights whose shadows are read each apart: two or three without a picture of what is diffuse.
+std::vector<Light> read_apart(const Lighting& lighting) {
+    std::vector<Light> apart = lighting.lights;
+    std::erase_if(apart,
+                  [](const Light& l) { return l.kind == LightKind::sky || !l.picture.empty() || !l.diffuse.empty(); });
+    const bool table = lighting.table && !lighting.table->empty();
+    if (lighting.shadows != Shadows::read || table || apart.size() < 2 || apart.size() > 3) apart.clear();
+    return apart;
+}
+
 template <class T>
 Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
     const Lighting& lighting = scene_.lighting;
@@ -162,6 +172,15 @@ Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
         const auto old = lobes_by({}, lighting, e.base_normal, e.base_normal, e.view, world, surface);
         relit.others.now = now.diffuse, relit.others.old = old.diffuse;
         relit.mirrored = Part{*mirrored, now.specular, old.specular};
+    }
+    for (const Light& light : read_apart(lighting)) {
+        Lighting one = lighting;
+        one.lights = {light};
+        const auto lobes = [&](const Vec<T>& n) {
+            const Lobes<T> both = lobes_by({}, one, n, e.base_normal, e.view, world, surface);
+            return relit.mirrored ? both.diffuse : both.diffuse + both.specular;
+        };
+        relit.alone.push_back({{}, lobes(e.normal), lobes(e.base_normal)});
     }
     const Vec<T> picture = relit.picture(lighting, surface.albedo);
     const Vec<T> a = surface.albedo;

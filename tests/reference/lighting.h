@@ -193,6 +193,33 @@ T relight_ratio(T lit_new, T lit_old, T max_ratio) {
     return std::clamp((lit_new + small) / (lit_old + small), 1 / max_ratio, max_ratio);
 }
 
+/// How much of each light reaches a pixel, and of all their light: of every choice of lights the mean, weighted by
+/// 1 / (1 + (distance / width)^2)^2 of what it gives from what the picture shows; no more than that is given. `dark` of
+/// all light is other light.
+template <class T>
+std::pair<std::vector<T>, T> visibilities(Vec<T> shown, Vec<T> sky, const std::vector<Vec<T>>& lit, T dark) {
+    const auto sum = [](Vec<T> a) { return a.x + a.y + a.z; };
+    Vec<T> all;
+    for (const Vec<T>& light : lit) all = all + light;
+    const T width = (sum(all) + sum(sky) / 10) / 20 + sum(shown) / 1000000 + T(1e-20);
+    shown = shown - sky - all * dark;
+    std::vector<T> reached(lit.size());
+    T weights = 0, given = 0;
+    for (std::size_t choice = 0; choice < (std::size_t{1} << lit.size()); ++choice) {
+        Vec<T> gap = shown;
+        for (std::size_t k = 0; k < lit.size(); ++k)
+            if (choice >> k & 1) gap = gap - lit[k] * (1 - dark);
+        const T weight = 1 / std::pow(1 + dot(gap, gap) / (width * width), T(2));
+        weights += weight;
+        for (std::size_t k = 0; k < lit.size(); ++k)
+            if (choice >> k & 1) reached[k] += weight;
+    }
+    for (std::size_t k = 0; k < lit.size(); ++k) reached[k] /= weights, given += reached[k] * sum(lit[k]);
+    const T bound = given > 0 ? std::clamp(sum(shown) / ((1 - dark) * given), T(0), T(1)) : T(0);
+    for (T& share : reached) share *= bound;
+    return {reached, sum(all) > 0 ? bound * given / sum(all) : T(0)};
+}
+
 /// What relighting knows of a pixel: its picture, those of lights, and what lights and sky give with the bumped and
 /// with the base normal.
 template <class T>
@@ -203,8 +230,9 @@ struct Relit {
         Shows shows = Shows::both;
     };
     Vec<T> beauty;
-    std::vector<Part> own;  ///< lights with pictures
-    Part others, sky;       ///< lights without (no picture), and the irradiance / pi of the sky
+    std::vector<Part> own;      ///< lights with pictures
+    Part others, sky;           ///< lights without (no picture), and the irradiance / pi of the sky
+    std::vector<Part> alone{};  ///< each of those whose shadows are read apart; none: they are read together
     /// What the frame shows as specular of all light, and what is specular of lights without pictures, where it is
     /// known apart; `others` is what is diffuse then.
     std::optional<Part> mirrored{};
@@ -241,9 +269,21 @@ struct Relit {
                 lighting.ambient == Vec3{};
             const T least = dark ? T(1) / 2 : T(0);
             const T share = given > 0 ? ((beyond.x + beyond.y + beyond.z) / given - least) / (1 - least) : T(0);
-            const T reached = std::clamp(share, T(0), T(1));
-            const Vec<T> lamps = each([&](auto c) { return std::min(others.old.*c * reached, rest.*c); });
-            result = result + times_ratio(lamps, others) + times_ratio(rest - lamps, sky);
+            T reached = std::clamp(share, T(0), T(1));
+            const auto give = [&](const Part& part, T of_it) {
+                const Vec<T> lamps = each([&](auto c) { return std::min(part.old.*c * of_it, rest.*c); });
+                result = result + times_ratio(lamps, part), rest = rest - lamps;
+            };
+            if (alone.empty()) {
+                give(others, reached);
+            } else {
+                std::vector<Vec<T>> lit;
+                for (const Part& part : alone) lit.push_back(part.old);
+                const auto [shares, of_all] = visibilities(rest, sky_old, lit, least);
+                for (std::size_t k = 0; k < alone.size(); ++k) give(alone[k], shares[k]);
+                reached = of_all;
+            }
+            result = result + times_ratio(rest, sky);
             if (mirrored) {
                 const Vec<T> lit = each([&](auto c) { return std::min(mirrored->old.*c * reached, shine.*c); });
                 result = result + times_ratio(lit, *mirrored) + (shine - lit);

@@ -51,11 +51,19 @@ const Way kWays[] = {{"lights and sky", [](const Scene& scene) { return lights(s
                       }},
                      {"pictures, no sky", [](const Scene& scene) { return lights(scene, false, true); }},
                      {"pictures", [](const Scene& scene) { return lights(scene, true, true); }},
-                     {"fitted", [](const Scene& scene) {
+                     {"fitted",
+                      [](const Scene& scene) {
                           Scene bare = scene;
                           bare.lighting.lights.clear();
                           EXPECT_TRUE(wants_lights(bare));
-                          return with_lights(bare, lights_of_frame(bare, 0)).lighting;
+                          return with_lights(bare, find_lights(bare, 0)).lighting;
+                      }},
+                     {"named, in another unit", [](const Scene& scene) {
+                          Scene other = scene;
+                          other.lighting = lights(scene, false, false);
+                          for (Light& light : other.lighting.lights) light.intensity *= 7;
+                          EXPECT_TRUE(wants_lights(other));
+                          return with_lights(other, find_lights(other, 0)).lighting;
                       }}};
 
 struct Picture {
