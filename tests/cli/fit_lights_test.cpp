@@ -30,7 +30,7 @@ TEST(FitLights, ARunWithoutLightsFitsThemAndSaysSo) {
     place.write_scene(tilt + ratio, frame, camera);
     const Ran ran = place.run("run scene.toml -o out");
     EXPECT_EQ(ran.code, 0) << ran.err;
-    expect_mentions(ran.out, {"lights, fitted to the picture as the scene names none: a sky, a sun"});
+    expect_mentions(ran.out, {"lights: fitted to the picture as the scene names none: a sky, a sun"});
     EXPECT_EQ(place.run("explain scene.toml --no-source").code, 0);
 }
 
