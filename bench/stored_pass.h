@@ -29,7 +29,7 @@ struct StoredPass {
     PlaneBuffers in, out;
 
     StoredPass(const Device& device, const Scene& scene, const BenchFrame& frame, const StoredWay& way);
-    void run() { pass.enqueue(in.planes(), out.planes()).wait(); }
+    void run() { pass.enqueue(in.planes(), out.planes(), both_ready(in, out)).wait(); }
 };
 
 /// The numbers that planes x, y and z hold, of which `x` is named.

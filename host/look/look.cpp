@@ -68,7 +68,8 @@ Scene Look::prepared(const Scene& scene) {
     out.output = {};
     out.output.roughness = out.output.dp_dx = out.output.dp_dy = out.output.marked = true;
     if (!wants_lights(out)) return out;
-    if (!lights_) lights_ = find_lights(scene, number_);
+    // Lights that a scene names may have been edited, and with them how strong they are beside the picture.
+    if (!lights_ || !lights_->all || !scene.lighting.lights.empty()) lights_ = find_lights(scene, number_);
     return with_lights(std::move(out), *lights_);
 }
 

@@ -29,16 +29,19 @@ LightPictures picture_numbers(const std::vector<std::string>& pictures, const Li
 }
 
 std::vector<std::size_t> lights_read_apart(const Lighting& lighting, bool specular_apart) {
-    constexpr std::size_t most = 3;
     std::vector<std::size_t> apart;
     if (lighting.relight != Relight::ratio || lighting.shadows != Shadows::read) return apart;
     if (lighting.table && !lighting.table->empty()) return apart;
     for (std::size_t i = 0; i < lighting.lights.size(); ++i) {
         const Light& light = lighting.lights[i];
-        if (light.kind != LightKind::sky && light.picture.empty() && light.diffuse.empty()) apart.push_back(i);
+        if (light.kind == LightKind::sky) continue;
+        if (light.picture.empty() && light.diffuse.empty()) apart.push_back(i);
+        // What is specular of such a light is in the rest of the picture, with no number of its own.
+        else if (light.picture.empty() && light.specular.empty() && !specular_apart)
+            return {};
     }
     const std::size_t before = pictures_of(lighting).size() + (specular_apart ? 1 : 0);
-    if (apart.size() < 2 || apart.size() > most || before + apart.size() > kMostPictures) apart.clear();
+    if (apart.size() < 2 || apart.size() > kMostApart || before + apart.size() > kMostPictures) apart.clear();
     return apart;
 }
 

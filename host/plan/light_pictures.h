@@ -21,6 +21,9 @@ struct LightPictures {
 LightPictures picture_numbers(const std::vector<std::string>& pictures, const Light& light, bool specular_apart,
                               std::size_t none = 0);
 
+/// The most lights whose shadows are read each apart.
+constexpr std::size_t kMostApart = 3;
+
 /// The lights whose shadows are read each apart, by their places among the scene's: those without a picture of what is
 /// diffuse, if they are two or three, as then the picture's colours tell which of them reach a pixel. Their numbers
 /// follow those of pictures, and that of what is specular. Empty: all have one number, 0.

@@ -44,13 +44,18 @@ void add_mirrored_skies(Emitter& emitter) {
         "    wr_sky_lobe lobe = wr_sky_lobe_of({}, at, v, f0);\n    wr_vec3 sum = wr_zero3();\n",
         texture_at({}, TexelKind::lobes));
     const std::vector<Light>& lights = emitter.scene.lighting.lights;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (!scene::is_mirrored(lights[i])) continue;
-        const std::size_t first = add_numbers(emitter, fmt::format("light {}", i + 1), [i](const NumberSource& source) {
-            return numbers_of_sky(source.scene.lighting.lights.at(i));
-        });
+    std::size_t count = 0;  // the scene's other lights may come and go
+    for (const Light& light : lights) {
+        if (!scene::is_mirrored(light)) continue;
+        const std::size_t first =
+            add_numbers(emitter, fmt::format("sky {}", count + 1), [count](const NumberSource& source) {
+                std::vector<Light> skies = source.scene.lighting.lights;
+                std::erase_if(skies, [](const Light& l) { return !scene::is_mirrored(l); });
+                return numbers_of_sky(skies.at(count));
+            });
+        ++count;
         text += fmt::format("    sum = wr_add(sum, wr_sky_seen({}, skies + {}, lobe));\n",
-                            texture_at(lights[i].harmonics ? lights[i].texture : "", TexelKind::sky), first);
+                            texture_at(light.harmonics ? light.texture : "", TexelKind::sky), first);
     }
     emitter.helpers += text + "    return wr_scale(sum, lobe.strength);\n}\n\n";
 }

@@ -40,9 +40,8 @@ OctahedralMap OctahedralMap::half() const {
         for (int x = 0; x < coarse.size; ++x)
             for (std::size_t k = 0; k < 3; ++k)
                 coarse.all[static_cast<std::size_t>(y * coarse.size + x)][k] =
-                    (at(2 * x, 2 * y)[k] + at(2 * x + 1, 2 * y)[k] + at(2 * x, 2 * y + 1)[k] +
-                     at(2 * x + 1, 2 * y + 1)[k]) /
-                    4;
+                    at(2 * x, 2 * y)[k] / 4 + at(2 * x + 1, 2 * y)[k] / 4 + at(2 * x, 2 * y + 1)[k] / 4 +
+                    at(2 * x + 1, 2 * y + 1)[k] / 4;
     return coarse;
 }
 

@@ -1,6 +1,8 @@
 #include "resources/sky_levels.h"
 
 #include <algorithm>
+#include <array>
+#include <cfloat>
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +25,7 @@ double alpha_of(int level) { return WR_SKY_ALPHA * std::pow(WR_SKY_ALPHA_RATIO, 
 /// Sums up directions of a latlong picture in the texels that they belong to.
 class Splats {
 public:
-    Splats() : sums_(kSourceSize), weights_(sums_.all.size()) {}
+    Splats() : means_(kSourceSize), sums_(means_.all.size()), weights_(means_.all.size()) {}
 
     /// A row of a picture: its pixels are cut into so many parts that every texel gets some.
     void add_row(const io::SkyRow& row) {
@@ -36,30 +38,32 @@ public:
                 for (int j = 0; j < across; ++j) {
                     const double turn = std::numbers::pi * (1 - 2 * (x + (j + 0.5) / across) / row.width);
                     add({out * std::cos(turn), out * std::sin(turn), z},
-                        row.rgb.data() + 3 * static_cast<std::size_t>(x), static_cast<float>(out));
+                        row.rgb.data() + 3 * static_cast<std::size_t>(x), out);
                 }
         }
     }
 
     OctahedralMap means() && {
         for (std::size_t i = 0; i < weights_.size(); ++i)
-            for (float& channel : sums_.all[i]) channel /= weights_[i];
-        return std::move(sums_);
+            for (std::size_t c = 0; c < 3; ++c)
+                means_.all[i][c] = static_cast<float>(std::min(sums_[i][c] / weights_[i], double{FLT_MAX}));
+        return std::move(means_);
     }
 
 private:
-    void add(const Vec3& direction, const float* rgb, float weight) {
+    void add(const Vec3& direction, const float* rgb, double weight) {
         const auto [s, t] = OctahedralMap::place(direction);
         const auto index = [](double at) {
             return std::min(static_cast<std::size_t>(at * kSourceSize), std::size_t{kSourceSize - 1});
         };
         const std::size_t i = index(t) * kSourceSize + index(s);
-        for (std::size_t c = 0; c < 3; ++c) sums_.all[i][c] += weight * rgb[c];
+        for (std::size_t c = 0; c < 3; ++c) sums_[i][c] += weight * double{rgb[c]};
         weights_[i] += weight;
     }
 
-    OctahedralMap sums_;
-    std::vector<float> weights_;
+    OctahedralMap means_;
+    std::vector<std::array<double, 3>> sums_;  // of finite pixels, whose sum may be too large for a float
+    std::vector<double> weights_;
 };
 
 /// Level `level` of the picture whose mips are `source`: each sample of the lobe takes the mean over what it stands

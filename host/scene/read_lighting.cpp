@@ -68,7 +68,7 @@ void read_sky(Table& table, Light& light) {
         table.complain("up", "must not be zero; it is where the zenith is");
     light.up = normalize(light.up);
     table.read("intensity", light.intensity, not_negative);
-    table.read("highlights", light.highlights);
+    table.read("highlights", light.highlights, Compiled::no);
     for (const char* key : {"texture", "rotation", "zenith", "horizon", "ground"}) table.know(key);
     if (table.visits() ? light.harmonics.has_value() : table.has("texture")) return read_sky_picture(table, light);
     if (table.has("rotation")) table.complain("rotation", "has no effect without texture, which it turns");
@@ -156,6 +156,11 @@ void read_light_table(Table& table, Lighting& out) {
     for (const Light& light : out.lights)
         if (is_mirrored(light)) mirrored += fmt::format("{}, ", quote(light.texture.string()));
     table.compiled_in("skies with highlights", mirrored);
+    // Of two or three, kernels see each apart (lights_read_apart).
+    const auto unseen = std::ranges::count_if(
+        out.lights, [](const Light& l) { return l.kind != LightKind::sky && l.picture.empty() && l.diffuse.empty(); });
+    const bool apart = out.shadows == Shadows::read && (unseen == 2 || unseen == 3);
+    table.compiled_in("lights whose shadows are read apart", apart ? static_cast<int>(unseen) : 0);
     if (table.visits()) return visit_light_table(table, out);
     if (!table.read_file("lights", out.table_file)) return;
     if (out.relight == Relight::off && !table.is_bad("relight"))

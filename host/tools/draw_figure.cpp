@@ -11,6 +11,7 @@
 #include "io/whole_planes.h"
 #include "run/condition.h"
 #include "run/open_frame.h"
+#include "tools/frame_lights.h"
 #include "tools/render.h"
 
 namespace wrinkle {
@@ -54,7 +55,8 @@ Shown show(const Device& device, const Scene& scene, const GBufferReader& reader
         return {show_condition(device, scene, reader, camera),
                 {"condition", "condition", "condition"},
                 PngEncoding::linear};
-    Pass pass = evaluate(device, scene, frame_of(scene, reader, camera));
+    const Scene lit = wants_lights(scene) ? with_lights(scene, find_lights(scene, 0)) : scene;
+    Pass pass = evaluate(device, lit, frame_of(scene, reader, camera));
     const Planes in = read_planes(reader, pass.inputs());
     Planes out;
     HostOutputs spans;

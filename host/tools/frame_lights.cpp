@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/light_json.h"
 #include "tools/frame_surfaces.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint32_t kSomeRows = 8;                 // bands that are read to tell how strong named lights are
 constexpr std::size_t kMostNamed = 3;                  // lights whose strength is told from the picture
 constexpr double kExplained = 0.2, kLeastShare = 0.1;  // else their strength is a guess
+constexpr double kAgree = 1.7;                         // factors of lights may differ by so much
 
 /// The lights of a scene but for skies.
 std::vector<Light> lamps_of(const Lighting& lighting) {
@@ -60,6 +62,11 @@ FoundLights find_lights(const Scene& scene, int frame) {
     try {
         const FrameSurfaces seen = surfaces_of_frame(scene, frame, kSomeRows);
         const LightScale found = fit_scale(seen.surfaces, lamps_of(scene.lighting));
+        if (!std::isfinite(found.scale) || !(found.scale > 0)) return {.why_not = "the scene's give no light"};
+        if (!(found.apart < kAgree))
+            return {.why_not = fmt::format("one of them is {:.2g} times as strong or weak beside the others as in the "
+                                           "scene",
+                                           found.apart)};
         if (found.median < kExplained && found.share > kLeastShare) return {.named = found};
         return {.why_not = fmt::format("of the picture's light they give {:.0f}%, and {:.0f}% are unexplained (median)",
                                        100 * found.share, 100 * found.median)};

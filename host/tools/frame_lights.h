@@ -13,7 +13,7 @@ struct FrameLights {
 };
 
 /// Fits lights to a frame of a scene by its picture, normals and albedo, at a few thousand pixels drawn evenly over
-/// what the normals face; metal, what is left alone and what surfaces give off do not count. The same frame gives the
+/// what the normals face; metal and what surfaces give off do not count. The same frame gives the
 /// same lights. Throws Error where there are no normals or no picture, or the frame tells too little.
 FrameLights lights_of_frame(const Scene& scene, int frame);
 
@@ -24,8 +24,9 @@ struct FoundLights {
     std::string why_not{};              ///< it names them, and the picture does not tell how strong they are
 };
 
-/// Whether a scene wants its picture relit, and names no light that could do it, or up to three suns, points and spheres, with
-/// Shadows::automatic and without pictures of their own, whose shadows could be read if their unit were known.
+/// Whether a scene wants its picture relit, and names no light that could do it, or up to three suns, points and
+/// spheres, with Shadows::automatic and without pictures of their own, whose shadows could be read if their unit were
+/// known.
 bool wants_lights(const Scene& scene);
 /// What such a scene wants, from a frame. Throws as lights_of_frame() does where it names no lights.
 FoundLights find_lights(const Scene& scene, int frame);

@@ -182,7 +182,8 @@ FrameSurfaces surfaces_of_frame(const Scene& scene, int frame, std::uint32_t ban
                            "specular_direct", "specular_indirect", "specular_color"});
     const Places places(rows, frame_of(scene, reader, camera), scene.gbuffer.geometry);
     EvenDraw draw;
-    const std::uint32_t height = reader.size().height, every = std::max(height / kRows / bands, 1u) * kRows;
+    const std::uint32_t height = reader.size().height, tall = (height + kRows - 1) / kRows,
+                        every = (tall + std::min(bands, tall) - 1) / std::max(std::min(bands, tall), 1u) * kRows;
     for (std::uint32_t first = 0; first < height; first += every) {
         const std::size_t count = rows.read(first, std::min(first + kRows, height));
         for (std::size_t i = 0; i < count; ++i)

@@ -20,7 +20,7 @@ struct FrameSurfaces {
 constexpr std::uint32_t kAllRows = UINT32_MAX;
 
 /// A few thousand pixels, drawn evenly over what the normals face, of at most so many bands of 64 rows, spread evenly.
-/// Metal, what is left alone and what surfaces give off do not count. The same frame gives the same surfaces. Throws
+/// Metal and what surfaces give off do not count. The same frame gives the same surfaces. Throws
 /// Error where there are no normals or no picture.
 FrameSurfaces surfaces_of_frame(const Scene& scene, int frame, std::uint32_t bands = kAllRows);
 

@@ -278,16 +278,29 @@ LightScale fit_scale(std::span<const SeenSurface> surfaces, std::span<const Ligh
     axes.up = {0, 1, 0};
     const Fit y = solver.fit(axes);
     const Fit best = refined(solver, z.cost <= y.cost ? z : y, 8, 1, false);
-    double found = 0, named = 0, all = 0;
+    std::vector<double> found, named;
+    double shown = 0, all = 0;
     for (std::size_t k = 0; k < lamps.size(); ++k) {
         const Lamp& lamp = best.axes.lamps[k];
         const Vec3& color = lamps[k].color;
-        found += strength(solver, best, k);
-        named += reach(solver, lamp) * lamps[k].intensity * (color[0] + color[1] + color[2]) /
-                 unit_of(lamp, solver.extent());
+        found.push_back(strength(solver, best, k));
+        named.push_back(reach(solver, lamp) * lamps[k].intensity * (color[0] + color[1] + color[2]) /
+                        unit_of(lamp, solver.extent()));
+        const double one = best.colours.row(static_cast<Eigen::Index>(kSky + k)).sum();
+        for (std::size_t i = 0; i < surfaces.size(); ++i)
+            if (best.lit[i] >> k & 1) shown += one * solver.term(surfaces[i], lamp);
     }
     for (const SeenSurface& s : surfaces) all += s.radiance[0] + s.radiance[1] + s.radiance[2];
-    return {named > 0 ? found / named : 0, found / all, unexplained(solver, best, 0.5), sky_of(best)};
+    const auto sum = [](const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); };
+    LightScale out{.scale = sum(found) / sum(named), .share = shown / all, .sky = sky_of(best)};
+    out.median = unexplained(solver, best, 0.5);
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        const double own = found[k] / named[k] / out.scale;
+        // What is weak beside the others is found to no more than its place in the noise.
+        if (std::max(found[k], out.scale * named[k]) > kWeakest * sum(found))
+            out.apart = std::max({out.apart, own, 1 / own});
+    }
+    return out;
 }
 
 }  // namespace wrinkle

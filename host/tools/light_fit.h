@@ -39,13 +39,15 @@ LightFit fit_lights(std::span<const SeenSurface> surfaces);
 /// By what suns, points and spheres have to be multiplied to be as strong as what surfaces show of them.
 struct LightScale {
     double scale = 0;
-    double share = 0;   ///< of the surfaces' light, that of these lights
+    double share = 0;  ///< of the surfaces' light, that of these lights
+    /// How far one light's own factor is from `scale`, by which it is divided or multiplied: 1 where all agree.
+    double apart = 1;
     double median = 0;  ///< of what they and the sky leave unexplained, as a share of the median radiance
     Light sky;          ///< in the picture's units
 };
 
-/// Fits a sky, and one factor for up to three suns, points and spheres whose places are known, as fit_lights() does. Throws
-/// Error where surfaces are too few or face too much the same way, or have no places and one of the lights has.
+/// Fits a sky, and one factor for up to three suns, points and spheres whose places are known, as fit_lights() does.
+/// Throws Error where surfaces are too few or face too much the same way, or have no places and one of the lights has.
 LightScale fit_scale(std::span<const SeenSurface> surfaces, std::span<const Light> lamps);
 
 }  // namespace wrinkle

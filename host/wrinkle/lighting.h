@@ -59,19 +59,19 @@ enum class Relight { off, lit, ratio };
 /// How a picture that is relit tells where a light reaches that has no picture of its own.
 enum class Shadows {
     automatic,  ///< read by `wrinkle run` where the picture tells how strong the lights are in its units; else ignored
-    ignored,  ///< it does not: all light of the picture is shared out as if no light was shadowed, in any unit
-    read      ///< off the picture, for lights in its units: what it shows beside the sky's, over what they would give
+    ignored,    ///< it does not: all light of the picture is shared out as if no light was shadowed, in any unit
+    read        ///< off the picture, for lights in its units: what it shows beside the sky's, over what they would give
 };
 
 struct Lighting {
     Relight relight = Relight::off;
     Shadows shadows = Shadows::automatic;  ///< Relight::ratio
-    Vec3 ambient{0, 0, 0};               ///< radiance from all around, beside that of skies
-    Vec3 albedo{0.5, 0.5, 0.5};          ///< where the G-buffer has none
-    double roughness = 0.5;              ///< where the G-buffer has none
-    double f0 = 0.04;                    ///< specular reflectance at normal incidence
-    double max_ratio = 4;                ///< bound of lit(new)/lit(old), and 1/bound below
-    double exposure = 0;                 ///< stops, of the PNG only
+    Vec3 ambient{0, 0, 0};                 ///< radiance from all around, beside that of skies
+    Vec3 albedo{0.5, 0.5, 0.5};            ///< where the G-buffer has none
+    double roughness = 0.5;                ///< where the G-buffer has none
+    double f0 = 0.04;                      ///< specular reflectance at normal incidence
+    double max_ratio = 4;                  ///< bound of lit(new)/lit(old), and 1/bound below
+    double exposure = 0;                   ///< stops, of the PNG only
     std::vector<Light> lights;
     /// Points, spots, spheres, discs and rectangles beside these, as many as you like: where they have ranges, the cost
     /// follows how many reach a pixel. They have no pictures of their own.

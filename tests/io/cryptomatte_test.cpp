@@ -12,7 +12,8 @@ namespace {
 using namespace test;
 
 TEST(Cryptomatte, ManifestsOfHashesMeanTheFloatsThatChannelsHold) {
-    // The hash of "Box" has an exponent of 0, which would make a denormal; Blender writes it into the manifest as it is.
+    // The hash of "Box" has an exponent of 0, which would make a denormal; Blender writes it into the manifest as it
+    // is.
     EXPECT_EQ(cryptomatte_hash("Box"), 0x80bb1009u);
     Metadata header;
     header.set("cryptomatte/1/name", "CryptoObject");

@@ -3,6 +3,7 @@
 
 #include "resources/frame_constants.h"
 #include "tests/kernels/kernel_function.h"
+#include "tests/reference/relit.h"
 
 namespace wrinkle::test {
 namespace {

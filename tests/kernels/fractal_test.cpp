@@ -17,7 +17,11 @@ TEST(Fractal, WeightAndFootprint) {
         c.out("footprint", std::max(length(dx), length(dy)));
     }
     check(c, "",
-          {{"weight", {"wr_octave_weight(wr_noise_mean((wr_noise){.basis = WR_PERLIN}), cells)"}, ErrorMeasure::absolute, 3e-7, 0},
+          {{"weight",
+            {"wr_octave_weight(wr_noise_mean((wr_noise){.basis = WR_PERLIN}), cells)"},
+            ErrorMeasure::absolute,
+            3e-7,
+            0},
            {"footprint", {"wr_footprint_size(dx, dy)"}, ErrorMeasure::relative, 3e-7, 0}});
 }
 

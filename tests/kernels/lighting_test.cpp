@@ -2,6 +2,7 @@
 #include "tests/cases/lighting.h"
 
 #include "tests/kernels/check.h"
+#include "tests/reference/relit.h"
 
 namespace wrinkle::test {
 namespace {
@@ -105,6 +106,48 @@ TEST(Lighting, RatioIsBounded) {
     c.data.constants = {4};
     check(c, "wr_real ratio = wr_relight_ratio(now, old, constants[0]);",
           {{"ratio", {"ratio"}, ErrorMeasure::relative, 0, 5e-7}});
+}
+
+/// Pictures of some of three lights and of others, over a sky; huge, tiny and black ones, and lights that give nothing.
+TEST(Relight, LightsAreToldApartByTheirColours) {
+    cases::Cases c{.name = "visibilities"};
+    for (unsigned seed = 1; seed <= 120; ++seed) {
+        cases::Random random(seed);
+        const bool hard = seed > 80;
+        const real size = hard ? std::pow(real{10}, random.uniform(-12, 12)) : real{1};
+        const auto colour = [&](real most) {
+            return cases::Random::rounded(V{random.uniform(0, most), random.uniform(0, most), random.uniform(0, most)} *
+                                          size);
+        };
+        std::vector<V> lit{colour(1), colour(1), colour(1)};
+        if (seed % 10 == 9) lit[seed % 3] = {};
+        if (seed % 40 == 0) lit = {V{}, V{}, V{}};
+        const V sky = seed % 7 == 0 ? V{} : colour(0.3L);
+        V picture = seed % 5 == 0 ? colour(1) : sky;
+        for (unsigned k = 0; k < 3; ++k)
+            if (seed >> k & 1) picture = picture + lit[k];
+        if (seed % 11 == 0) picture = {};
+        picture = cases::Random::rounded(picture);
+        const real least = seed % 2 ? 0 : 0.5L;
+        c.add(fmt::format("visibilities, seed {}", seed), hard);
+        c.in("picture", picture), c.in("sky", sky), c.in("least", least);
+        c.in("a", lit[0]), c.in("b", lit[1]), c.in("c", lit[2]);
+        const auto [reached, all] = reference::visibilities<real>(picture, sky, lit, least);
+        c.out("first", reached[0]), c.out("second", reached[1]), c.out("third", reached[2]), c.out("all", all);
+    }
+    const auto answer = [](const std::string& want, const std::string& got) {
+        return Answer{want, {got}, ErrorMeasure::absolute, 2e-4, 2e-4, 1e-9};
+    };
+    check(c,
+          "const wr_vec3 lit[3] = {a, b, c};\nwr_real reached[3];\n"
+          "wr_real all = wr_visibilities(picture, sky, lit, 3, WR_R(0.5), reached);\n"
+          "wr_real half[3] = {reached[0], reached[1], reached[2]};\n"
+          "wr_real whole = wr_visibilities(picture, sky, lit, 3, 0, reached);\n"
+          "wr_mask some = least > 0;\n"
+          "all = some ? all : whole;\n"
+          "wr_real first = some ? half[0] : reached[0], second = some ? half[1] : reached[1],\n"
+          "        third = some ? half[2] : reached[2];",
+          {answer("first", "first"), answer("second", "second"), answer("third", "third"), answer("all", "all")});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "tests/reference/evaluate.h"
 
 #include "tests/reference/blend.h"
+#include "tests/reference/relit.h"
 #include "tests/reference/volume_gradient.h"
 
 namespace wrinkle::reference {
@@ -125,13 +126,17 @@ Evaluated<T> SceneEvaluator<T>::evaluate(std::size_t i) const {
     return out;
 }
 
-/// Lights whose shadows are read each apart: two or three without a picture of what is diffuse.
-std::vector<Light> read_apart(const Lighting& lighting) {
+/// Lights whose shadows are read each apart: two or three without a picture of what is diffuse; none where what is
+/// specular of another has no picture. `specular`: the frame tells what is specular.
+std::vector<Light> read_apart(const Lighting& lighting, bool specular) {
     std::vector<Light> apart = lighting.lights;
     std::erase_if(apart,
                   [](const Light& l) { return l.kind == LightKind::sky || !l.picture.empty() || !l.diffuse.empty(); });
     const bool table = lighting.table && !lighting.table->empty();
-    if (lighting.shadows != Shadows::read || table || apart.size() < 2 || apart.size() > 3) apart.clear();
+    const bool half = !specular && std::ranges::any_of(lighting.lights, [](const Light& l) {
+        return l.kind != LightKind::sky && l.picture.empty() && !l.diffuse.empty() && l.specular.empty();
+    });
+    if (lighting.shadows != Shadows::read || table || half || apart.size() < 2 || apart.size() > 3) apart.clear();
     return apart;
 }
 
@@ -173,7 +178,7 @@ Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
         relit.others.now = now.diffuse, relit.others.old = old.diffuse;
         relit.mirrored = Part{*mirrored, now.specular, old.specular};
     }
-    for (const Light& light : read_apart(lighting)) {
+    for (const Light& light : read_apart(lighting, relit.mirrored.has_value())) {
         Lighting one = lighting;
         one.lights = {light};
         const auto lobes = [&](const Vec<T>& n) {

@@ -13,7 +13,7 @@ template <class T>
 struct NoiseMeans {
     T value{}, magnitude{}, square{};
     T slope{}, magnitude_slope{},
-        square_slope{};  ///< of g^2, |n| g^2 and n^2 g^2; g^2: a third of the gradient's square
+        square_slope{};       ///< of g^2, |n| g^2 and n^2 g^2; g^2: a third of the gradient's square
     T fade{}, fade_square{};  ///< by which octaves fade in a pixel: octave_weight
 };
 

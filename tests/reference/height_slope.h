@@ -17,8 +17,8 @@ T level_of_detail(TexDerivative<T> st, int w, int h, int levels, T finer = 0) {
     return std::clamp(std::log2(longest) / 2 - finer, T(0), T(levels - 1));
 }
 
-/// By how many levels a sample is finer than the footprint is long: bilinear interpolation of means over texels blurs by a
-/// variance of a quarter of a texel's square, a pixel by a twelfth of its own.
+/// By how many levels a sample is finer than the footprint is long: bilinear interpolation of means over texels blurs
+/// by a variance of a quarter of a texel's square, a pixel by a twelfth of its own.
 template <class T>
 T filter_finer() {
     return std::log2(T(3)) / 2;

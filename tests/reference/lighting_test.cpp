@@ -1,5 +1,6 @@
 // Reflectance is reciprocal and loses no more energy than single scattering does, and lights fall off as they should.
 #include "tests/reference/lighting.h"
+#include "tests/reference/relit.h"
 
 #include <gtest/gtest.h>
 

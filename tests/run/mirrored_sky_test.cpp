@@ -3,6 +3,7 @@
 #include "layers/kinds.h"
 #include "run/pass_impl.h"
 #include "tests/io/files.h"
+#include "tests/reference/relit.h"
 #include "tests/reference/sky.h"
 #include "tests/run/light_frames.h"
 

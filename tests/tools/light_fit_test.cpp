@@ -215,6 +215,16 @@ TEST(FrameLights, AreBroughtIntoThePicturesUnits) {
     }
 }
 
+TEST(FrameLights, WhoseStrengthsContradictThePictureStayAsTheyAre) {
+    Scene scene = load_scene(std::filesystem::path(WRINKLE_SOURCE_DIR) / "bench/picture/yard.toml");
+    for (Light& light : scene.lighting.lights) light.picture.clear();
+    ASSERT_TRUE(find_lights(scene, 0).named.has_value());
+    scene.lighting.lights[1].intensity *= 4 * std::numbers::pi;  // the lamp in watts
+    EXPECT_NE(find_lights(scene, 0).why_not.find("beside the others"), std::string::npos);
+    for (Light& light : scene.lighting.lights) light.color = {};
+    EXPECT_NE(find_lights(scene, 0).why_not.find("give no light"), std::string::npos);
+}
+
 TEST(FrameLights, ThatThePictureDoesNotShowStayAsTheyAre) {
     Scene scene = named_sun();
     for (double& x : scene.lighting.lights[0].direction) x = -x;  // from below
