@@ -141,12 +141,12 @@ TEST(Relight, LightsAreToldApartByTheirColours) {
     check(c,
           "const wr_vec3 lit[3] = {a, b, c};\nwr_real reached[3];\n"
           "wr_real all = wr_visibilities(picture, sky, lit, 3, WR_R(0.5), reached);\n"
-          "wr_real half[3] = {reached[0], reached[1], reached[2]};\n"
+          "wr_real with_least[3] = {reached[0], reached[1], reached[2]};\n"
           "wr_real whole = wr_visibilities(picture, sky, lit, 3, 0, reached);\n"
           "wr_mask some = least > 0;\n"
           "all = some ? all : whole;\n"
-          "wr_real first = some ? half[0] : reached[0], second = some ? half[1] : reached[1],\n"
-          "        third = some ? half[2] : reached[2];",
+          "wr_real first = some ? with_least[0] : reached[0], second = some ? with_least[1] : reached[1],\n"
+          "        third = some ? with_least[2] : reached[2];",
           {answer("first", "first"), answer("second", "second"), answer("third", "third"), answer("all", "all")});
 }
 
