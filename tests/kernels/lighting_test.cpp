@@ -108,7 +108,8 @@ TEST(Lighting, RatioIsBounded) {
           {{"ratio", {"ratio"}, ErrorMeasure::relative, 0, 5e-7}});
 }
 
-/// Pictures of some of three lights and of others, over a sky; huge, tiny and black ones, and lights that give nothing.
+/// Pictures of some of three lights and of others, over a sky; huge, tiny and black ones, and lights beside some that give
+/// nothing.
 TEST(Relight, LightsAreToldApartByTheirColours) {
     cases::Cases c{.name = "visibilities"};
     for (unsigned seed = 1; seed <= 120; ++seed) {
@@ -121,7 +122,7 @@ TEST(Relight, LightsAreToldApartByTheirColours) {
         };
         std::vector<V> lit{colour(1), colour(1), colour(1)};
         if (seed % 10 == 9) lit[seed % 3] = {};
-        if (seed % 40 == 0) lit = {V{}, V{}, V{}};
+        if (seed % 40 == 0) lit[0] = lit[1] = {};
         const V sky = seed % 7 == 0 ? V{} : colour(0.3L);
         V picture = seed % 5 == 0 ? colour(1) : sky;
         for (unsigned k = 0; k < 3; ++k)
