@@ -108,8 +108,8 @@ TEST(Lighting, RatioIsBounded) {
           {{"ratio", {"ratio"}, ErrorMeasure::relative, 0, 5e-7}});
 }
 
-/// Pictures of some of three lights and of others, over a sky; huge, tiny and black ones, and lights beside some that give
-/// nothing.
+/// Pictures of some of three lights and of others, over a sky; huge, tiny and black ones, and lights beside some that
+/// give nothing.
 TEST(Relight, LightsAreToldApartByTheirColours) {
     cases::Cases c{.name = "visibilities"};
     for (unsigned seed = 1; seed <= 120; ++seed) {
