@@ -82,6 +82,25 @@ TEST(Relit, LobesGoEachByTheirOwnRatio) {
         }
 }
 
+TEST(Relit, WhetherTwoOrThreeLightsAreToldApartIsCompiledIn) {
+    const HostFrame frame = passes_frame({"beauty", "albedo"});
+    const auto with = [](std::size_t count) {
+        Scene scene;
+        scene.layers.resize(1);
+        scene.layers[0].bump = ConstantLayer{{0.5, 0, 0}};
+        scene.lighting.relight = Relight::ratio, scene.lighting.shadows = Shadows::read;
+        scene.lighting.lights.assign(count, Light{.direction = {-0.6, 0, -0.8}});
+        return scene;
+    };
+    Pass two = evaluate(device(), with(2), frame.frame), one = evaluate(device(), with(1), frame.frame);
+    Scene stronger = with(2);
+    stronger.lighting.lights[1].intensity = 3;
+    EXPECT_NO_THROW(two.set_parameters(stronger));
+    for (const std::size_t count : {1, 3, 4}) EXPECT_THROW(two.set_parameters(with(count)), Error) << count;
+    EXPECT_NO_THROW(one.set_parameters(with(4))) << "of four, as of one, all are read together";
+    for (const std::size_t count : {2, 3}) EXPECT_THROW(one.set_parameters(with(count)), Error) << count;
+}
+
 TEST(Relit, WhatMirrorsTheSkyStaysAsItIs) {
     HostFrame frame = passes_frame({"beauty", "albedo"});
     for (const char color : {'r', 'g', 'b'})
