@@ -15,7 +15,7 @@
 namespace wrinkle {
 namespace {
 
-constexpr std::size_t kFewest = 200, kOfGrid = 800;
+constexpr std::size_t kOfGrid = 800;
 constexpr int kTurns = 8;         // directions in which axes are turned
 constexpr double kWeakest = 0.1;  // share of the strongest lamp's light that another one has at least
 constexpr double kDarkest = 0.5;  // share of what faces a further lamp that it may miss: else it explains highlights
@@ -192,24 +192,6 @@ double dark_share(const LightSolver& solver, const Fit& fit, std::size_t k) {
         if ((fit.lit[i] >> k & 1) == 0) ++dark;
     }
     return facing > 0 ? dark / facing : 0;
-}
-
-void check_variety(std::span<const SeenSurface> surfaces) {
-    if (surfaces.size() < kFewest)
-        throw Error(
-            fmt::format("lights cannot be fitted to {} pixels; it takes {} with a normal and a picture that is "
-                        "not black",
-                        surfaces.size(), kFewest));
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    const auto count = static_cast<double>(surfaces.size());
-    for (const SeenSurface& s : surfaces) mean += Eigen::Vector3d(s.normal.data()) / count;
-    for (const SeenSurface& s : surfaces) {
-        const Eigen::Vector3d d = Eigen::Vector3d(s.normal.data()) - mean;
-        spread += d * d.transpose() / count;
-    }
-    if (spread.trace() < 0.02)
-        throw Error("lights cannot be fitted: all surfaces face the same way, so nothing tells where light is from");
 }
 
 }  // namespace

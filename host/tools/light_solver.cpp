@@ -1,5 +1,7 @@
 #include "tools/light_solver.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +10,7 @@
 
 #include "base/median.h"
 #include "base/vec.h"
+#include "wrinkle/error.h"
 
 namespace wrinkle {
 namespace {
@@ -18,7 +21,8 @@ constexpr std::size_t kUnknowns = kSky + kMostLamps;
 using Terms = std::array<double, kUnknowns>;
 constexpr int kRounds = 8;         // of weights and shadows; they settle in fewer
 constexpr double kNearest = 0.02;  // of the radius: nearer to a point, light does not grow
-constexpr double kNoise = 0.06;    // of the median radiance: what is taken for noise
+constexpr std::size_t kFewestSurfaces = 200;
+constexpr double kNoise = 0.06;  // of the median radiance: what is taken for noise
 
 double square(double x) { return x * x; }
 
@@ -99,6 +103,24 @@ void choose_shadows(Fit& fit, std::span<const SeenSurface> surfaces, const std::
 }
 
 }  // namespace
+
+void check_variety(std::span<const SeenSurface> surfaces) {
+    if (surfaces.size() < kFewestSurfaces)
+        throw Error(
+            fmt::format("lights cannot be fitted to {} pixels; it takes {} with a normal and a picture that is "
+                        "not black",
+                        surfaces.size(), kFewestSurfaces));
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    const auto count = static_cast<double>(surfaces.size());
+    for (const SeenSurface& s : surfaces) mean += Eigen::Vector3d(s.normal.data()) / count;
+    for (const SeenSurface& s : surfaces) {
+        const Eigen::Vector3d d = Eigen::Vector3d(s.normal.data()) - mean;
+        spread += d * d.transpose() / count;
+    }
+    if (spread.trace() < 0.02)
+        throw Error("lights cannot be fitted: all surfaces face the same way, so nothing tells where light is from");
+}
 
 Vec3 colour_of(const Fit& fit, std::size_t row, double factor) {
     Vec3 out{};

@@ -38,6 +38,9 @@ struct Fit {
 constexpr std::size_t kMostLamps = 3;
 constexpr std::size_t kSky = 3;  ///< unknowns of the sky: zenith, horizon, ground
 
+/// Throws Error where surfaces are too few, or face too much the same way, to tell where light is from.
+void check_variety(std::span<const SeenSurface> surfaces);
+
 /// A row of a fit's colours, times a factor.
 Vec3 colour_of(const Fit& fit, std::size_t row, double factor);
 
