@@ -25,14 +25,6 @@ std::vector<Light> extended() {
                   .size = {2, 0.5}}};
 }
 
-Scene scene_of(std::vector<Light> lights) {
-    Scene scene = lit_scene({});
-    scene.lighting.table = nullptr;
-    scene.lighting.lights = std::move(lights);
-    scene.layers[0].bump = ConstantLayer{{0.2, -0.1, 0}};
-    return scene;
-}
-
 HostFrame tilted_plane() {
     HostFrame frame(plane_frame(test_camera(), {19, 11}, normalize(V{0.1, -0.2, 1})), test_camera());
     for (const char* color : {"r", "g", "b"}) frame.add(std::string("beauty.") + color, 0.5f);
@@ -42,7 +34,7 @@ HostFrame tilted_plane() {
 TEST(AreaLights, LightAsBruteForceDoes) {
     const HostFrame frame = tilted_plane();
     for (const Relight relight : {Relight::lit, Relight::ratio}) {
-        Scene scene = scene_of(extended());
+        Scene scene = scene_lit_by(extended());
         scene.lighting.relight = relight;
         scene.lighting.roughness = 0.4;
         const Spread off = lit_error(evaluate_on(frame, scene), Truth(frame, scene));
@@ -56,15 +48,15 @@ TEST(AreaLights, OfNoExtentAreThoseThatHaveNone) {
                               Light{.kind = LightKind::point, .intensity = 6, .position = {1, -1, 2}}};
     std::vector<Light> none = points;
     none[1].kind = LightKind::sphere;
-    Pass before = evaluate(device(), scene_of(points), frame.frame),
-         after = evaluate(device(), scene_of(none), frame.frame);
+    Pass before = evaluate(device(), scene_lit_by(points), frame.frame),
+         after = evaluate(device(), scene_lit_by(none), frame.frame);
     EXPECT_EQ(before.impl().plan.source, after.impl().plan.source);
     EXPECT_EQ(before.impl().plan.source.find("WR_AREA_LIGHTS"), std::string::npos);
     EXPECT_EQ(largest_difference(run(before, frame), run(after, frame)), 0);
     std::vector<Light> little = points;
     little[0].angle = 1e-4, little[1].kind = LightKind::sphere, little[1].radius = 1e-4;
-    EXPECT_LT(largest_difference(run(before, frame), evaluate_on(frame, scene_of(little))), 1e-4);
-    EXPECT_THROW(before.set_parameters(scene_of(little)), Error) << "whether there are any is compiled in";
+    EXPECT_LT(largest_difference(run(before, frame), evaluate_on(frame, scene_lit_by(little))), 1e-4);
+    EXPECT_THROW(before.set_parameters(scene_lit_by(little)), Error) << "whether there are any is compiled in";
 }
 
 /// Lamps that fade away within the frame, seen from before and from behind: nothing is lost, and nothing is NaN.
@@ -87,12 +79,12 @@ TEST(AreaLights, WithShortRangesLightOnlyWhatIsNear) {
             lamp.radius = 0.05;
         lamps.push_back(lamp);
     }
-    const Scene scene = scene_of(lamps);
+    const Scene scene = scene_lit_by(lamps);
     const Pixels got = evaluate_on(frame, scene);
     for (const auto& [name, plane] : got)
         for (const float v : plane) ASSERT_TRUE(std::isfinite(v)) << name;
     expect_within("short ranges", lit_error(got, Truth(frame, scene)), {2e-3, 2e-2, 5e-2}, "relative");
-    Scene table = scene_of({});
+    Scene table = scene_lit_by({});
     table.lighting.table = std::make_shared<const std::vector<Light>>(lamps);
     EXPECT_LT(largest_difference(evaluate_on(frame, table), got), 1e-4);
 }
@@ -101,9 +93,9 @@ TEST(AreaLights, OfATableAreTheSame) {
     const HostFrame frame = tilted_plane();
     std::vector<Light> lights = extended();
     lights.erase(lights.begin());
-    Scene table = scene_of({});
+    Scene table = scene_lit_by({});
     table.lighting.table = std::make_shared<const std::vector<Light>>(lights);
-    EXPECT_LT(largest_difference(evaluate_on(frame, table), evaluate_on(frame, scene_of(lights))), 1e-5);
+    EXPECT_LT(largest_difference(evaluate_on(frame, table), evaluate_on(frame, scene_lit_by(lights))), 1e-5);
 }
 
 }  // namespace

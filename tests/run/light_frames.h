@@ -40,6 +40,15 @@ inline Scene lit_scene(std::vector<Light> table) {
     return scene;
 }
 
+/// A tilted surface lit by lights of the scene, without a table.
+inline Scene scene_lit_by(std::vector<Light> lights) {
+    Scene scene = lit_scene({});
+    scene.lighting.table = nullptr;
+    scene.lighting.lights = std::move(lights);
+    scene.layers[0].bump = ConstantLayer{{0.2, -0.1, 0}};
+    return scene;
+}
+
 /// How far colours are off, relative to the true one and a share of the frame's mean.
 inline Spread lit_error(const Pixels& got, const Truth& truth) {
     double mean = 0;

@@ -33,14 +33,6 @@ std::vector<Light> skies(const TempFolder& folder) {
     return {picture, Light{.intensity = 0.5, .direction = {-0.6, 0, -0.8}}, colours};
 }
 
-Scene scene_of(std::vector<Light> lights) {
-    Scene scene = lit_scene({});
-    scene.lighting.table = nullptr;
-    scene.lighting.lights = std::move(lights);
-    scene.layers[0].bump = ConstantLayer{{0.2, -0.1, 0}};
-    return scene;
-}
-
 std::vector<Light> without_highlights(std::vector<Light> lights) {
     for (Light& light : lights) light.highlights = false;
     return lights;
@@ -50,7 +42,7 @@ TEST(MirroredSkies, AreSeenInTheirOwnAxes) {
     const HostFrame frame = tilted_plane();
     const TempFolder folder;
     const std::vector<Light> lights = skies(folder);
-    const Scene scene = scene_of(lights), dull = scene_of(without_highlights(lights));
+    const Scene scene = scene_lit_by(lights), dull = scene_lit_by(without_highlights(lights));
     const Pixels bright = evaluate_on(frame, scene), flat = evaluate_on(frame, dull);
     const Truth truth(frame, dull);
     // Turned by 90 degrees around y, which is the picture's top, from x in its middle: the middle is at -z.
@@ -71,17 +63,17 @@ TEST(MirroredSkies, AreCompiledInWhereThereAreSome) {
     const TempFolder folder;
     const std::vector<Light> lights = skies(folder), dull = without_highlights(lights);
     std::vector<Light> none{lights[1]};
-    Pass before = evaluate(device(), scene_of(none), frame.frame),
-         after = evaluate(device(), scene_of(dull), frame.frame);
+    Pass before = evaluate(device(), scene_lit_by(none), frame.frame),
+         after = evaluate(device(), scene_lit_by(dull), frame.frame);
     EXPECT_EQ(before.impl().plan.source, after.impl().plan.source);
     EXPECT_TRUE(after.impl().plan.textures.empty());
-    EXPECT_THROW(after.set_parameters(scene_of(lights)), Error) << "whether a sky is mirrored is compiled in";
+    EXPECT_THROW(after.set_parameters(scene_lit_by(lights)), Error) << "whether a sky is mirrored is compiled in";
 }
 
 TEST(MirroredSkies, RelightAsTheyLight) {
     const HostFrame frame = tilted_plane();
     const TempFolder folder;
-    Scene scene = scene_of(skies(folder)), flat = scene;
+    Scene scene = scene_lit_by(skies(folder)), flat = scene;
     flat.layers.clear();
     const Pixels now = evaluate_on(frame, scene), old = evaluate_on(frame, flat);
     scene.lighting.relight = Relight::ratio;
