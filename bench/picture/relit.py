@@ -77,7 +77,7 @@ def verdict(mode, now, unbumped):
 
 def line(name, figures):
     places, shadow, behind = figures
-    return f"{name:36}" + "".join(f"{f:8.3f}{d:6.1f}" for f, d in places.values()) + f"{shadow:8.3f}{behind:8.1%}"
+    return f"{name:38}" + "".join(f"{f:8.3f}{d:6.1f}" for f, d in places.values()) + f"{shadow:8.3f}{behind:8.1%}"
 
 
 def relit(wrinkle, text, folder):
@@ -92,7 +92,7 @@ def relit(wrinkle, text, folder):
 
 def measure(scene, wrinkle, folder):
     truth = Truth(scene)
-    print(f"{scene.stem:36}" + "".join(f"{name:>14}" for name in ["frame", *truth.objects]) + "  shadow  behind")
+    print(f"{scene.stem:38}" + "".join(f"{name:>14}" for name in ["frame", *truth.objects]) + "  shadow  behind")
     unbumped = truth.figures(truth.unbumped)
     print(line("unbumped", unbumped))
     print(line("another seed", truth.figures(truth.again)))
@@ -100,7 +100,7 @@ def measure(scene, wrinkle, folder):
     for mode in modes(scene):
         now = truth.figures(relit(wrinkle, mode.text, folder / mode.name.replace(",", "").replace(" ", "_")))
         print(line(mode.name, now), flush=True)
-        verdicts.append(f"  {mode.name:36}{verdict(mode, now, unbumped)}")
+        verdicts.append(f"  {mode.name:38}{verdict(mode, now, unbumped)}")
     print(*verdicts, sep="\n", end="\n\n")
 
 

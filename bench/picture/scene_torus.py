@@ -5,7 +5,7 @@ import bpy
 from blender_scene import camera, dress, ground, sky, sun
 
 SIZE = (320, 180)
-SAMPLES = 64
+SAMPLES = 256
 PASSES = ("diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color")
 FINER = 1
 

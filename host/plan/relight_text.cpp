@@ -153,33 +153,36 @@ std::string left_picture_text(Emitter& emitter, Section& section) {
 
 std::string relight_text(Emitter& emitter, Section& section) {
     const std::vector<std::string> pictures = pictures_of(emitter.scene.lighting);
+    const auto sent_on = [all = sky_is_sent_on(emitter)](const std::string& sky) {
+        return all ? sky : fmt::format("wr_multiply3(albedo, {})", sky);
+    };
     std::string text = load_text(section, "beauty", {"beauty.r", "beauty.g", "beauty.b"}) +
-                       "        wr_vec3 rest = beauty, change = wr_zero3();\n";
+                       fmt::format("        wr_vec3 rest = beauty, change = wr_zero3(), sky = {}, sky_now = {};\n",
+                                   sent_on("old_lit_sky"), sent_on("lit_sky"));
     // A picture of one light that has a hole shows nothing of it there: all is taken for other light.
     for (std::size_t k = 1; k <= pictures.size(); ++k)
         text += load_text(section, fmt::format("own_{}", k), picture_planes(emitter, pictures[k - 1])) +
                 fmt::format(
                     "        own_{0} = wr_max(wr_select(own_{0}_seen, own_{0}, wr_zero3()), wr_zero3());\n"
                     "        rest = wr_sub(rest, own_{0});\n"
-                    "        change = wr_add(change, wr_relight_change(own_{0}, {1}, old_{1}, lighting->max_ratio));\n",
+                    "        change = wr_add(change, wr_relight_change(own_{0}, wr_with_bounce({1}, sky_now),\n"
+                    "            wr_with_bounce(old_{1}, sky), lighting->max_ratio));\n",
                     k, lit_name(k));
     if (emitter.has("emission.r"))
         text += load_text(section, "emission", {"emission.r", "emission.g", "emission.b"}) +
                 "        emission = wr_max(emission, wr_zero3());\n"
                 "        rest = wr_sub(rest, emission);\n";
-    const bool apart = specular_apart(emitter), sent_on = sky_is_sent_on(emitter);
+    const bool apart = specular_apart(emitter);
     const bool read = emitter.scene.lighting.shadows == Shadows::read;
-    text += fmt::format("        rest = wr_max(rest, wr_zero3());\n        wr_vec3 sky = {};\n",
-                        sent_on ? "old_lit_sky" : "wr_multiply3(albedo, old_lit_sky)");
+    text += "        rest = wr_max(rest, wr_zero3());\n";
     if (apart) text += mirrored_text(emitter, section, pictures);
     if (read)
         text += read_shadows_text(emitter);
     else
-        text += fmt::format(
-            "        lit = wr_add(lit, {});\n"
+        text +=
+            "        lit = wr_add(lit, sky_now);\n"
             "        change = wr_add(change, wr_relight_change(rest, lit, wr_add(old_lit, sky), "
-            "lighting->max_ratio));\n",
-            sent_on ? "lit_sky" : "wr_multiply3(albedo, lit_sky)");
+            "lighting->max_ratio));\n";
     if (apart) text += shine_text(emitter, section, lit_name(pictures.size() + 1));
     // Metal mirrors what is around it, which nobody knows: it stays as it is.
     if (emitter.has("metallic")) {

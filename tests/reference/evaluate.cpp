@@ -165,11 +165,11 @@ Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
                     lit_by(picture, lighting, e.base_normal, e.base_normal, e.view, world, surface),
                     picture.empty() ? Shows::both : shows(picture)};
     };
-    Relit<T> relit{
-        beauty,
-        {},
-        part(""),
-        {{}, sky_light(lighting, e.normal, e.base_normal), sky_light(lighting, e.base_normal, e.base_normal)}};
+    const Lighting around = with_faint_light(lighting);
+    Relit<T> relit{beauty,
+                   {},
+                   part(""),
+                   {{}, sky_light(around, e.normal, e.base_normal), sky_light(around, e.base_normal, e.base_normal)}};
     for (const std::string& picture : pictures(lighting))
         if (!picture.empty()) relit.own.push_back(part(picture));
     if (const auto mirrored = specular(i)) {

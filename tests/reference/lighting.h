@@ -67,6 +67,16 @@ T terminator(Vec<T> n, Vec<T> base, Vec<T> l) {
     return -g * g * g + g * g + g;
 }
 
+/// Share of light from all around that a bumped surface keeps: the base hides (1 - n.base) / 2 of it, and 0.55 of what
+/// the terminator takes beyond that, as a fit gives it (lighting_test.cpp has the integral).
+template <class T>
+T sky_keeps(Vec<T> n, Vec<T> base) {
+    const T apart = length(n - base), square = apart * apart / 2, s = std::sqrt(square);
+    if (square >= 1) return (1 + dot(n, base)) / 2;
+    const T faded = square * (T(0.698L) - T(0.296L) * s + T(0.1565L) * square) / (T(0.117L) + s);
+    return 1 - T(0.45L) * square / 2 - T(0.55L) * faded;
+}
+
 /// The pictures that show what of a light is diffuse, and what is specular; "": none does.
 inline const std::string& diffuse_picture(const Light& light) {
     return light.diffuse.empty() ? light.picture : light.diffuse;
@@ -92,7 +102,7 @@ Vec<T> sky_radiance(const Light& sky, Vec<T> d) {
 
 /// Irradiance / pi of the sky on a surface with the normal n: its radiance projected onto real spherical harmonics of
 /// order 2, each times its factor of the clamped cosine, pi, 2 pi / 3 and pi / 4 [Ramamoorthi and Hanrahan 2001]; and
-/// of that the share of directions which the base does not hide, (1 + n.base) / 2. The projection is a sum that is
+/// of that sky_keeps(). The projection is a sum that is
 /// exact for radiance which is linear in the sine of the elevation, above the horizon and below.
 template <class T>
 Vec<T> sky_light(const Lighting& lighting, Vec<T> n, Vec<T> base) {
@@ -131,7 +141,7 @@ Vec<T> sky_light(const Lighting& lighting, Vec<T> n, Vec<T> base) {
                     sum = sum + sky_radiance(light, d) * (kernel * weight * 2 * pi / turns);
                 }
     }
-    return sum * ((1 + dot(n, base)) / 2);
+    return sum * sky_keeps(n, base);
 }
 
 /// What of lights one picture shows (of "": what none does): the sums of albedo / pi max(n.l, 0) and of the specular

@@ -44,6 +44,20 @@ std::pair<std::vector<T>, T> visibilities(Vec<T> shown, Vec<T> sky, const std::v
     return {reached, sum(all) > 0 ? bound * given / sum(all) : T(0)};
 }
 
+/// Whether a scene tells of no sky. What no light explains then comes from all around, as a fiftieth of what a white
+/// surface shows of the lights, suns or at 1 m.
+inline bool is_dark(const Lighting& lighting) {
+    const auto none = [](const Light& l) { return l.kind == LightKind::sky; };
+    return std::ranges::none_of(lighting.lights, none) && lighting.ambient == Vec3{};
+}
+inline Lighting with_faint_light(Lighting lighting) {
+    if (!is_dark(lighting)) return lighting;
+    for (const Light& light : lighting.lights)
+        for (std::size_t c = 0; c < 3; ++c)
+            lighting.ambient[c] += light.color[c] * light.intensity / (50 * std::numbers::pi);
+    return lighting;
+}
+
 /// What relighting knows of a pixel: its picture, those of lights, and what lights and sky give with the bumped and
 /// with the base normal.
 template <class T>
@@ -61,26 +75,28 @@ struct Relit {
     /// known apart; `others` is what is diffuse then.
     std::optional<Part> mirrored{};
 
-    /// Every light's own picture times its ratio; of the rest, what lights without pictures can give where the picture
-    /// shows that they reach it times theirs, and all else times the sky's. What is specular of the rest and known
-    /// apart: what the lights can give times theirs, and all else as it is.
+    /// Every light's own picture times its ratio, in which a fiftieth of the sky stands for what surfaces send on of
+    /// it; of the rest, what lights without pictures can give where the picture shows that they reach it times theirs,
+    /// and all else times the sky's. What is specular of the rest and known apart: what the lights can give times
+    /// theirs, and all else as it is.
     Vec<T> picture(const Lighting& lighting, Vec<T> albedo) const {
         const auto each = [](auto&& of) { return Vec<T>{of(&Vec<T>::x), of(&Vec<T>::y), of(&Vec<T>::z)}; };
         const auto times_ratio = [&](Vec<T> a, const Part& part) {
             return each([&](auto c) { return a.*c * relight_ratio(part.now.*c, part.old.*c, T(lighting.max_ratio)); });
         };
         Vec<T> rest = beauty, result;
+        const auto sky_now = each([&](auto c) { return albedo.*c * sky.now.*c; });
+        const auto sky_old = each([&](auto c) { return albedo.*c * sky.old.*c; });
         for (const Part& part : own) {
             const Vec<T> shown = each([&](auto c) { return std::max(part.picture.*c, T(0)); });
-            rest = rest - shown, result = result + times_ratio(shown, part);
+            rest = rest - shown;
+            result = result + times_ratio(shown, {{}, part.now + sky_now / T(50), part.old + sky_old / T(50)});
         }
         // What lights' pictures show beyond the beauty is not taken from it twice.
         const Vec<T> over = each([&](auto c) { return std::min(rest.*c, T(0)); });
         rest = rest - over, result = result + over;
         const Vec<T> shine = mirrored ? specular_of(rest) : Vec<T>{};
         rest = rest - shine;
-        const auto sky_now = each([&](auto c) { return albedo.*c * sky.now.*c; });
-        const auto sky_old = each([&](auto c) { return albedo.*c * sky.old.*c; });
         if (lighting.shadows != Shadows::read) {
             result = result + times_ratio(rest, {{}, others.now + sky_now, others.old + sky_old});
             const Vec<T> around = sky.old * T(lighting.f0);
@@ -88,10 +104,7 @@ struct Relit {
         } else {
             const Vec<T> beyond = rest - sky_old;
             const T given = others.old.x + others.old.y + others.old.z;
-            const bool dark =
-                std::ranges::none_of(lighting.lights, [](const Light& l) { return l.kind == LightKind::sky; }) &&
-                lighting.ambient == Vec3{};
-            const T least = dark ? T(1) / 2 : T(0);
+            const T least = is_dark(lighting) ? T(1) / 2 : T(0);
             const T share = given > 0 ? ((beyond.x + beyond.y + beyond.z) / given - least) / (1 - least) : T(0);
             T reached = std::clamp(share, T(0), T(1));
             const auto give = [&](const Part& part, T of_it) {
