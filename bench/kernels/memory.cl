@@ -3,9 +3,9 @@
 #define WR_FEW_OUTPUTS
 #include "wrinkle.clh"
 
-kernel void wr_copy(global const float *restrict x, global const float *restrict y, global const float *restrict z,
-                    global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
-                    global WR_SCALAR *restrict out_z, uint pixels)
+wr_kernel void wr_copy(global const float *restrict x, global const float *restrict y, global const float *restrict z,
+                       global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
+                       global WR_SCALAR *restrict out_z, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;
@@ -15,8 +15,8 @@ kernel void wr_copy(global const float *restrict x, global const float *restrict
 }
 
 /// a + 3 b, as in the STREAM benchmark: two planes in, one out.
-kernel void wr_triad(global const float *restrict a, global const float *restrict b, global WR_SCALAR *restrict out,
-                     uint pixels)
+wr_kernel void wr_triad(global const float *restrict a, global const float *restrict b, global WR_SCALAR *restrict out,
+                        uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;
@@ -27,7 +27,7 @@ kernel void wr_triad(global const float *restrict a, global const float *restric
 #define WR_FMA_CHAINS 12
 
 /// Nothing but arithmetic: as many independent chains of fma as it takes to hide their latency.
-kernel void wr_fma_chains(global const float *restrict in, global WR_SCALAR *restrict out, uint pixels)
+wr_kernel void wr_fma_chains(global const float *restrict in, global WR_SCALAR *restrict out, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;
@@ -41,11 +41,11 @@ kernel void wr_fma_chains(global const float *restrict in, global WR_SCALAR *res
     wr_store(sum, out, at);
 }
 
-kernel void wr_resolve_only(global const float *restrict n_x, global const float *restrict n_y,
-                            global const float *restrict n_z, global const float *restrict g_x,
-                            global const float *restrict g_y, global const float *restrict g_z,
-                            global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
-                            global WR_SCALAR *restrict out_z, uint pixels)
+wr_kernel void wr_resolve_only(global const float *restrict n_x, global const float *restrict n_y,
+                               global const float *restrict n_z, global const float *restrict g_x,
+                               global const float *restrict g_y, global const float *restrict g_z,
+                               global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
+                               global WR_SCALAR *restrict out_z, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;
@@ -58,11 +58,11 @@ kernel void wr_resolve_only(global const float *restrict n_x, global const float
 }
 
 /// Copies as many planes as screen derivatives read and write.
-kernel void wr_copy_four_to_six(global const float *restrict a, global const float *restrict b,
-                                global const float *restrict c, global const float *restrict d,
-                                global WR_SCALAR *restrict out_a, global WR_SCALAR *restrict out_b,
-                                global WR_SCALAR *restrict out_c, global WR_SCALAR *restrict out_d,
-                                global WR_SCALAR *restrict out_e, global WR_SCALAR *restrict out_f, uint pixels)
+wr_kernel void wr_copy_four_to_six(global const float *restrict a, global const float *restrict b,
+                                   global const float *restrict c, global const float *restrict d,
+                                   global WR_SCALAR *restrict out_a, global WR_SCALAR *restrict out_b,
+                                   global WR_SCALAR *restrict out_c, global WR_SCALAR *restrict out_d,
+                                   global WR_SCALAR *restrict out_e, global WR_SCALAR *restrict out_f, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;

@@ -47,10 +47,10 @@ wr_fn wr_real wr_hashed_noise(wr_vec3 p)
 // The volatile vector forces the stack to be aligned, as it is in fused kernels. Without it, LLVM may place values that
 // do not fit into registers across two cache lines, depending on the thread, and the kernel takes up to a fifth longer.
 #define WR_NOISE_KERNEL(name, octave)                                                               \
-    kernel void name(global const float *restrict in_x, global const float *restrict in_y,          \
-                     global const float *restrict in_z, global WR_SCALAR *restrict out_value,       \
-                     global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,            \
-                     global WR_SCALAR *restrict out_z, uint pixels)                                 \
+    wr_kernel void name(global const float *restrict in_x, global const float *restrict in_y,       \
+                        global const float *restrict in_z, global WR_SCALAR *restrict out_value,    \
+                        global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,         \
+                        global WR_SCALAR *restrict out_z, uint pixels)                              \
     {                                                                                               \
         size_t at = get_global_id(0) * WR_LANES;                                                    \
         if (at >= pixels) return;                                                                   \

@@ -33,21 +33,21 @@ wr_fn void wr_resolve_and_store(wr_vec3 n, wr_vec3 g, global WR_SCALAR *x, globa
     wr_stream(n.z, z, at);
 }
 
-kernel void wr_resolve_halves(global const uchar *restrict n_x, global const uchar *restrict n_y,
-                              global const uchar *restrict n_z, global const uchar *restrict g_x,
-                              global const uchar *restrict g_y, global const uchar *restrict g_z,
-                              global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
-                              global WR_SCALAR *restrict out_z, uint pixels)
+wr_kernel void wr_resolve_halves(global const uchar *restrict n_x, global const uchar *restrict n_y,
+                                 global const uchar *restrict n_z, global const uchar *restrict g_x,
+                                 global const uchar *restrict g_y, global const uchar *restrict g_z,
+                                 global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
+                                 global WR_SCALAR *restrict out_z, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;
     wr_resolve_and_store(wr_load_halves(n_x, n_y, n_z, at), wr_load_halves(g_x, g_y, g_z, at), out_x, out_y, out_z, at);
 }
 
-kernel void wr_resolve_octahedral(global const uchar *restrict n, global const uchar *restrict g_x,
-                                  global const uchar *restrict g_y, global const uchar *restrict g_z,
-                                  global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
-                                  global WR_SCALAR *restrict out_z, uint pixels)
+wr_kernel void wr_resolve_octahedral(global const uchar *restrict n, global const uchar *restrict g_x,
+                                     global const uchar *restrict g_y, global const uchar *restrict g_z,
+                                     global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
+                                     global WR_SCALAR *restrict out_z, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;
@@ -55,9 +55,9 @@ kernel void wr_resolve_octahedral(global const uchar *restrict n, global const u
     wr_resolve_and_store(wr_normalize(direction), wr_load_halves(g_x, g_y, g_z, at), out_x, out_y, out_z, at);
 }
 
-kernel void wr_resolve_pixels(global const uchar *restrict n, global const uchar *restrict g,
-                              global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
-                              global WR_SCALAR *restrict out_z, uint pixels)
+wr_kernel void wr_resolve_pixels(global const uchar *restrict n, global const uchar *restrict g,
+                                 global WR_SCALAR *restrict out_x, global WR_SCALAR *restrict out_y,
+                                 global WR_SCALAR *restrict out_z, uint pixels)
 {
     size_t at = get_global_id(0) * WR_LANES;
     if (at >= pixels) return;

@@ -95,7 +95,7 @@ std::string column_kernel_source(const ColumnKernel& kernel, const std::vector<s
                                  const ColumnData& data) {
     std::string text =
         "#include \"wrinkle.clh\"\n\n"
-        "kernel void wr_columns(global const WR_SCALAR *restrict in, global WR_SCALAR *restrict out,\n"
+        "wr_kernel void wr_columns(global const WR_SCALAR *restrict in, global WR_SCALAR *restrict out,\n"
         "    constant const WR_SCALAR *constants, global const WR_SCALAR *restrict records,\n"
         "    global const float *restrict texels, global const uint *restrict textures, uint stride, uint rows)\n{\n"
         "    size_t at = get_global_id(0) * WR_LANES;\n";

@@ -29,7 +29,7 @@ std::string declare(const Value& value) {
 void begin_kernel(Plan& plan, const PlannedKernel& kernel, bool compiled_numbers) {
     std::string& text = plan.source;
     text += fmt::format(
-        "kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *{},\n"
+        "wr_kernel void {}(constant const wr_camera *camera, constant const WR_SCALAR *{},\n"
         "    constant const WR_SCALAR *eye_places, global const float *restrict texels, global const uint *restrict "
         "textures,\n"
         "    global const wr_projector *restrict decals, constant const wr_lighting *lighting, constant const wr_light "

@@ -69,7 +69,7 @@ PlannedKernel emit_tiles(Emitter& emitter, std::string& source) {
     if (!area || !moved.text.empty() || has_light_table(emitter)) grow += grow_text(emitter, moved);
     const PlaneFormats& formats = emitter.plan.formats;
     source += fmt::format(
-        R"(kernel void wr_bin_tiles(constant const wr_camera *camera, constant const WR_SCALAR *numbers,
+        R"(wr_kernel void wr_bin_tiles(constant const wr_camera *camera, constant const WR_SCALAR *numbers,
     constant const WR_SCALAR *axes, global float *bounds,
     uint tiles, uint supers,
 {}    uint in_first, uint in_pixels, uint first_row, uint width, uint rows)
@@ -102,13 +102,13 @@ PlannedKernel emit_bins(Emitter& emitter, std::string& source) {
         "global const float *boxes, global const float *bounds, global const float *groups, uint decals,\n"
         "    global uint *entries, uint capacity, global uint *used";
     source += fmt::format(
-        R"(kernel void wr_bin_parents(global const float *child_bounds, global float *bounds, uint parents)
+        R"(wr_kernel void wr_bin_parents(global const float *child_bounds, global float *bounds, uint parents)
 {{
     if (get_global_id(0) < parents)
         wr_bin_around(child_bounds, 16 * parents, get_global_id(0), bounds, parents);
 }}
 
-kernel void wr_bin_supers({0},
+wr_kernel void wr_bin_supers({0},
     global const float *tile_bounds, uint tiles, global uint *lists)
 {{
     wr_binned all = {{boxes, bounds, groups, decals}};
@@ -116,7 +116,7 @@ kernel void wr_bin_supers({0},
         wr_bin_super(all, tile_bounds, tiles, get_global_id(0), lists, entries, capacity, used);
 }}
 
-kernel void wr_bin_lists({0},
+wr_kernel void wr_bin_lists({0},
     global const float *child_bounds, uint parents, global const uint *parent_lists, global uint *child_lists,
     global ushort *hits)
 {{

@@ -2,9 +2,9 @@
 // of the same image. Needs the folder of wrinkle's kernel files on the include path (-I), and nothing of its host.
 #include "wrinkle.clh"
 
-kernel void bump(constant const wr_camera *camera, global const wr_projector *decal, global const float *texels,
-                 global const uint *textures, global const float *depth, global const float *nx,
-                 global const float *ny, global const float *nz, global float *bumped)
+wr_kernel void bump(constant const wr_camera *camera, global const wr_projector *decal, global const float *texels,
+                    global const uint *textures, global const float *depth, global const float *nx,
+                    global const float *ny, global const float *nz, global float *bumped)
 {
     // Work-item i has the pixels i WR_LANES and after. Positions are relative to the eye.
     wr_pixels at = wr_pixels_of(get_global_id(0), 0, 0, (uint)camera->width);

@@ -81,7 +81,7 @@ Lists lists_of(const BinSetup& setup, unsigned capacity, int lanes) {
     const BuiltProgram built = build_program(
         device,
         "#include \"wrinkle.clh\"\n"
-        "kernel void lists(global const float *boxes, global const float *bounds, global const float *groups,\n"
+        "wr_kernel void lists(global const float *boxes, global const float *bounds, global const float *groups,\n"
         "    uint decals, global const float *children, global float *around, global uint *super_list,\n"
         "    global uint *child_lists, global uint *entries, global ushort *hits, uint capacity, global uint "
         "*used)\n{\n"

@@ -89,7 +89,7 @@ std::vector<unsigned> touches(const std::vector<float>& decals, const std::vecto
     const BuiltProgram built = build_program(
         device,
         "#include \"wrinkle.clh\"\n"
-        "kernel void touches(global const float *decals, global const float *bounds, global uint *out)\n{\n"
+        "wr_kernel void touches(global const float *decals, global const float *bounds, global uint *out)\n{\n"
         "    uint i = get_global_id(0);\n"
         "    out[i] = wr_touches16(decals + WR_BOX_NUMBERS * i, bounds + 96 * i, 16, 0);\n}\n",
         {lanes, false});
