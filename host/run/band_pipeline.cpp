@@ -1,27 +1,78 @@
 #include "run/band_pipeline.h"
 
-#include <oneapi/tbb/parallel_pipeline.h>
+#include <array>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
 
 namespace wrinkle {
 
-void run_bands(std::uint32_t bands, std::uint32_t in_flight, const BandStages& stages) {
-    using Mode = tbb::filter_mode;
-    std::uint32_t next = 0;
-    const auto read = tbb::make_filter<void, std::uint32_t>(Mode::serial_in_order, [&](tbb::flow_control& control) {
-        if (next == bands) {
-            control.stop();
-            return next;
-        }
-        stages.read(next);
-        return next++;
-    });
-    const auto evaluate =
-        tbb::make_filter<std::uint32_t, std::uint32_t>(Mode::serial_in_order, [&](std::uint32_t band) {
-            stages.evaluate(band);
-            return band;
+namespace {
+
+/// How far the stages of a frame are.
+class Progress {
+public:
+    Progress(std::uint32_t bands, std::uint32_t in_flight) : bands_(bands), in_flight_(in_flight) {}
+
+    /// Brings every band through one stage, as soon as the stages before and after it allow, until one has failed.
+    void go_through(std::size_t stage, const std::function<void(std::uint32_t band)>& work) noexcept {
+        try {
+            for (std::uint32_t band = 0; band < bands_ && may_begin(stage, band); ++band) {
+                work(band);
+                const std::lock_guard lock(mutex_);
+                done_[stage] = band + 1;
+                changed_.notify_all();
+            }
+        } catch (...) { fail(std::current_exception()); }
+    }
+
+    void fail(const std::exception_ptr& error) noexcept {
+        const std::lock_guard lock(mutex_);
+        if (error_ == nullptr) error_ = error;
+        changed_.notify_all();
+    }
+
+    /// Throws what failed first. All stages have come to their ends.
+    void check() const {
+        if (error_ != nullptr) std::rethrow_exception(error_);
+    }
+
+private:
+    bool may_begin(std::size_t stage, std::uint32_t band) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] {
+            return error_ != nullptr || (stage == 0 ? band - done_.back() < in_flight_ : band < done_[stage - 1]);
         });
-    const auto write = tbb::make_filter<std::uint32_t, void>(Mode::serial_in_order, stages.write);
-    tbb::parallel_pipeline(in_flight, read & evaluate & write);
+        return error_ == nullptr;
+    }
+
+    std::uint32_t bands_, in_flight_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::array<std::uint32_t, 3> done_{};  ///< bands that each stage has finished
+    std::exception_ptr error_;
+};
+
+}  // namespace
+
+void run_bands(std::uint32_t bands, std::uint32_t in_flight, const BandStages& stages) {
+    if (bands == 1) {  // nothing that could run beside it
+        stages.read(0), stages.evaluate(0), stages.write(0);
+        return;
+    }
+    Progress progress(bands, in_flight);
+    {
+        std::jthread reader, writer;
+        try {
+            reader = std::jthread([&] { progress.go_through(0, stages.read); });
+            writer = std::jthread([&] { progress.go_through(2, stages.write); });
+            progress.go_through(1, stages.evaluate);
+        } catch (...) {
+            progress.fail(std::current_exception());  // no thread to be had
+        }
+    }
+    progress.check();
 }
 
 }  // namespace wrinkle
