@@ -89,6 +89,15 @@ void find_linker() {
     ::setenv("PATH", path.c_str(), 1);
 }
 
+/// Reaching the limit of a file's size then is an error of write(), like a full disk. To ignore the signal is not
+/// enough: the compiler in Intel's OpenCL handles it, to say that it crashed. Threads begin with this one's mask.
+void hold_back_file_size_signal() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
 /// Some libraries start threads while they are loaded, before main(), and end the program where there is no memory for
 /// them. What stands in this section of a program runs before that.
 void before_libraries(int, char**, char**) {
@@ -112,8 +121,8 @@ void tell(const std::string& text) noexcept {
 
 void prepare_process() {
     open_closed_streams();
-    std::signal(SIGXFSZ, SIG_IGN);  // reaching the limit of a file's size then is an error of write(), like a full disk
-    std::signal(SIGPIPE, SIG_IGN);  // and so is a reader that has gone
+    hold_back_file_size_signal();
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of write()
     remove_temporaries_on_signals();
     place_pocl_cache();
     find_linker();
