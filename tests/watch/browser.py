@@ -80,6 +80,11 @@ def script(page, text):
     return page.execute_script(text)
 
 
+def click(page, selector):
+    """Finds and clicks in one step: the page makes its layers anew when the file has changed."""
+    page.execute_script("document.querySelector(arguments[0]).click()", selector)
+
+
 def loaded(page):
     return script(page, "const i = document.getElementById('after'); return i.complete && i.naturalWidth")
 
@@ -166,15 +171,14 @@ def check_watch(page, folder):
         slider.send_keys(Keys.END)
         until("the picture of a slider", lambda: pixels(page) != first)
         assert scene.read_text() == SCENE, "a slider changed the file by itself"
-        write = page.find_element(By.ID, "write")
-        until("the button", write.is_enabled)
-        page.execute_script("arguments[0].click()", write)
+        until("the button", page.find_element(By.ID, "write").is_enabled)
+        click(page, "#write")
         until("the number in the file", lambda: scene.read_text() == SCENE.replace("scale = 0.5 ", "scale = 1.0 "))
 
         turned = pixels(page)
-        page.find_element(By.ID, "layer-1").click()
+        click(page, "#layer-1")
         until("a layer that is off", lambda: pixels(page) != turned)
-        page.find_element(By.CSS_SELECTOR, "#layers .layer button").click()  # of the first layer, which is alone already
+        click(page, "#layers .layer button")  # of the first layer, which is alone already
 
         ActionChains(page).move_to_element_with_offset(page.find_element(By.ID, "stage"), 40, 30).perform()
         until("numbers of a pixel", lambda: "footprint" in page.find_element(By.ID, "pixel").text)
