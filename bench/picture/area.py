@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""How far pictures lit over pixels' areas are from 1024 samples a pixel, and how they flicker.
+"""How far normals and pictures of pixels' areas are from 1024 samples a pixel, and how pictures flicker.
 
-    build/venv/bin/python bench/picture/area.py [pictures|flicker] [--quick]     needs PyPI's flip-evaluator and numpy
+    build/venv/bin/python bench/picture/area.py [normals|pictures|flicker] [--quick]     needs PyPI's flip-evaluator and numpy
 
+normals: cobbles and noise on a ground to the horizon, by thirds of the picture: degrees between normals and that of the mean
+surface gradient, median and 99%; and the slopes' standard deviation within pixels (output.slope_covariance), as a share of the
+truth's, median.
 pictures: layers on a ground to the horizon, a sphere and a wall along the view; FLIP (NVIDIA's, at 67 pixels a degree, of
 pictures in sRGB) and decibels of the linear ones, where the surface covers pixels whole.
 flicker: a camera flies over the ground for 24 frames. The mean absolute difference between the change of the picture from
@@ -23,6 +26,7 @@ WAYS = [("1 tap", {"taps": 1}), ("2 taps", {"taps": 2}), ("4 taps", {"taps": 4})
         ("16, mean normal", {"light": "mean"})]
 FLAT = wrinkle.Uv(source="planar", scale=1 / 1.8)
 ON_WALL = wrinkle.Uv(source="planar", scale=1 / 1.8, axis_u=(0, 1, 0), axis_v=(0, 0, 1))
+GROUND_NOISE = wrinkle.Noise(frequency=2, octaves=6, scale=0.06)
 NOISE = wrinkle.Noise(frequency=6, octaves=4, scale=0.05)
 FOG = wrinkle.Volume(volume="../volumes/noise.vdb", grid="density", scale=0.2,
                      transform=((2.4, 0, 0, -1.2), (0, 2.4, 0, -1.2), (0, 0, 2.4, -1.2), (0, 0, 0, 1)))
@@ -50,7 +54,7 @@ def cases(quick):
     far = View(60, 25, ball, eye=(0, -150, 9), target=(0, 0, 0), fov_y=0.014)
     sun, side = (0.6, 0.5, -0.6), (0.6, 0.7, -0.5)
     yield "ground, cobbles", of_ground(quick), (cobbles(FLAT), 0.3, sun)
-    yield "ground, noise", of_ground(quick), (wrinkle.Noise(frequency=2, octaves=6, scale=0.06), 0.3, sun)
+    yield "ground, noise", of_ground(quick), (GROUND_NOISE, 0.3, sun)
     yield "ground, decal", of_ground(quick), (decal((0, 0, 0), (1, 0, 0), (0, 1, 0)), 0.3, sun)
     yield "wall, cobbles", grazing, (cobbles(ON_WALL), 0.3, (-0.6, 0.5, -0.4))
     yield "wall, decal", grazing, (decal((0, 0, 0), (0, 1, 0), (0, 0, 1)), 0.3, (-0.6, 0.5, -0.4))
@@ -72,6 +76,31 @@ def distance(lit, wanted, where):
     return error[where].mean(), -10 * np.log10(max(square, 1e-12))
 
 
+def degrees(gradient, wanted):
+    """How far the ground's normals are from those of other surface gradients."""
+    a, b = ([0, 0, 1] - g.astype(np.float64) for g in (gradient, wanted))
+    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
+
+
+def measure_normals(quick):
+    view = of_ground(quick)
+    for name, what in (("cobbles", (cobbles(FLAT), 0.3, (0.6, 0.5, -0.6))), ("noise", (GROUND_NOISE, 0.3, (0.6, 0.5, -0.6)))):
+        wanted, where = truth(view, what, 8 if quick else 32)
+        spread = np.sqrt(np.maximum(wanted["square"] - (wanted["surface_gradient"] ** 2).sum(-1), 0))
+        for way, keys in WAYS[:1] + WAYS[4:5]:
+            planes = wrinkle.evaluate(scene(*what, output={"surface_gradient": True, "slope_covariance": True}, **keys),
+                                      view.gbuffer())
+            off = degrees(planes["surface_gradient"], wanted["surface_gradient"])
+            share = np.sqrt(planes["slope_covariance"][..., [0, 2]].sum(-1)) / np.maximum(spread, 1e-9)
+            thirds = [(third, lines * view.height // 270) for third, lines in
+                      (("near", np.r_[181:270]), ("middle", np.r_[111:181]), ("far", np.r_[0:111]))]
+            for third, lines in thirds:
+                rows = np.isin(np.arange(view.height), lines)[:, None] & where
+                median, most = np.percentile(off[rows], [50, 99])
+                print(f"  {name}, {way}, {third}: {median:.2f} degrees, {most:.1f} (99%); "
+                      f"deviation {np.median(share[rows]):.2f} of the truth's")
+
+
 def brute(view, what, points):
     return truth(view, what, points)[0]["lit"]
 
@@ -91,10 +120,11 @@ def measure_pictures(quick):
 def measure_flicker(quick):
     what = (cobbles(FLAT), 0.3, (0.6, 0.5, -0.6))
     ways = [("1 tap", {"taps": 1}), ("16, mean normal", {"light": "mean"}), ("16 taps", {})]
+    size = (160, 90) if quick else (480, 270)
     flicker, before = {way: [] for way, _ in ways}, None
     for frame in range(4 if quick else 24):
         eye = (0.02 * frame, -6 + 0.12 * frame, 1.6)
-        view = View(160, 90, ground, eye=eye, target=(eye[0], eye[1] + 6, 0.6), fov_y=0.698)
+        view = View(*size, ground, eye=eye, target=(eye[0], eye[1] + 6, 0.6), fov_y=0.698)
         wanted, where = truth(view, what, 4 if quick else 16)
         now = {way: wrinkle.evaluate(scene(*what, **keys), view.gbuffer())["lit"] for way, keys in ways}
         if before:
@@ -108,6 +138,6 @@ def measure_flicker(quick):
         print(f"  flicker, {way:26}{np.mean(values):8.4f}{np.mean(values) / one:8.2f} of one tap's")
 
 
-parts = [a for a in sys.argv[1:] if not a.startswith("-")] or ["pictures", "flicker"]
+parts = [a for a in sys.argv[1:] if not a.startswith("-")] or ["normals", "pictures", "flicker"]
 for part in parts:
-    {"pictures": measure_pictures, "flicker": measure_flicker}[part]("--quick" in sys.argv)
+    {"normals": measure_normals, "pictures": measure_pictures, "flicker": measure_flicker}[part]("--quick" in sys.argv)

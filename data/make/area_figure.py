@@ -31,12 +31,6 @@ def decibels(picture, truth, where):
     return -10 * np.log10(((picture["lit"] - truth["lit"])[where] ** 2).mean())
 
 
-def degrees(picture, truth, where):
-    """How far the ground's normals are from that of the mean surface gradient."""
-    a, b = ([0, 0, 1] - p["surface_gradient"][where].astype(np.float64) for p in (picture, truth))
-    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
-
-
 cobbles = wrinkle.HeightMap(texture="cobbles_height.png", scale=0.05, uv=wrinkle.Uv(source="planar", scale=1 / 1.8))
 noise = wrinkle.Noise(frequency=6, octaves=4, scale=0.05)
 rows = [
@@ -58,11 +52,5 @@ for row, (name, view, what) in zip(axes, rows):
         axis.set_title(title, fontsize=10)
         print(f"{name}: {title}")
     row[0].set_ylabel(name, fontsize=9)
-    if name.startswith("ground"):
-        for zone, lines in (("near", slice(181, None)), ("middle", slice(111, 181)), ("far", slice(0, 111))):
-            where = covered & np.isin(np.arange(view.height), np.arange(view.height)[lines])[:, None]
-            for picture, title in zip(shown, ("one point", "sixteen")):
-                median, most = np.percentile(degrees(picture, shown[2], where), [50, 99])
-                print(f"  normals, {zone}, {title}: {median:.2f} degrees off (median), {most:.1f} (99 %)")
 figure.subplots_adjust(left=0.02, right=0.998, top=0.965, bottom=0.005, wspace=0.015, hspace=0.13)
 figure.savefig(data / "pictures" / "area.jpg", dpi=100, pil_kwargs={"quality": 88})

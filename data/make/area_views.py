@@ -55,22 +55,25 @@ def wall(eye, rays):
     return depth, np.broadcast_to([1.0, 0, 0], rays.shape)
 
 
-def scene(layer, roughness, sun, taps=16, light="taps", **keys):
+def scene(layer, roughness, sun, taps=16, light="taps", output=None, **keys):
     """One layer under a sun."""
     return wrinkle.Scene(layers=[layer.replace(**keys)], lights=[wrinkle.Light("sun", direction=sun, intensity=2.5)],
                          lighting={"relight": "lit", "roughness": roughness, "ambient": [0.05] * 3},
-                         output={"surface_gradient": True}, filter={"taps": taps, "light": light},
+                         output=output or {"surface_gradient": True}, filter={"taps": taps, "light": light},
                          folder=data / "textures")
 
 
 def truth(view, what, points):
-    """The mean of unfiltered planes over points x points of every pixel; and the pixels that the surface covers whole."""
+    """The mean of unfiltered planes over points x points of every pixel, and of the square of the surface gradient's
+    length; and the pixels that the surface covers whole."""
     unfiltered = wrinkle.Pass(scene(*what, taps=1, footprint=False), view.gbuffer())
     mean, covered = {}, True
     for y in range(points):
         for x in range(points):
             point = view.gbuffer((x + 0.5) / points, (y + 0.5) / points)
             covered &= np.isfinite(point.plane("depth"))
-            for name, plane in unfiltered.run(point).items():
+            planes = unfiltered.run(point)
+            planes["square"] = (planes["surface_gradient"].astype(np.float64) ** 2).sum(-1)
+            for name, plane in planes.items():
                 mean[name] = mean.get(name, 0) + plane.astype(np.float64) / points**2
     return mean, covered

@@ -39,6 +39,11 @@ std::vector<DeviceCosts> parse(const std::string& text, const std::string& name)
                     if (const auto found = variants.find(precision_name(precision)); found != variants.end())
                         table.kinds[kind][precision] = {number(*found, "ns"), number(*found, "p99"),
                                                         number(*found, "max")};
+            const auto areas = entry.value("areas", nlohmann::json::object());  // older tables have none
+            for (const auto& [kind, rows] : areas.items())
+                for (const auto& row : rows)
+                    table.areas[kind][row.at("taps").get<int>()] = {number(row, "ns"), number(row, "median"),
+                                                                    number(row, "p99")};
         }
         return tables;
     } catch (const nlohmann::json::exception&) {
@@ -57,12 +62,21 @@ std::optional<VariantCost> DeviceCosts::find(const std::string& kind, Precision 
     return found == variants->second.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::optional<std::pair<int, TapsCost>> DeviceCosts::find_taps(const std::string& kind, int taps) const {
+    const auto rows = areas.find(kind);
+    if (rows == areas.end()) return std::nullopt;
+    const auto above = rows->second.upper_bound(taps);
+    return above == rows->second.begin() ? std::nullopt : std::optional(*std::prev(above));
+}
+
 std::string device_class(const DeviceInfo& info) {
     return fmt::format("{}, {} lane{}", info.type, info.lanes, info.lanes == 1 ? "" : "s");
 }
 
+std::vector<DeviceCosts> shipped_costs() { return parse(kernel_source("precision.json"), "precision.json"); }
+
 DeviceCosts costs_of(const DeviceInfo& info) {
-    const std::vector<DeviceCosts> known = parse(kernel_source("precision.json"), "precision.json");
+    const std::vector<DeviceCosts> known = shipped_costs();
     if (known.empty()) throw Error("precision.json: holds no device");
     const auto nearness = [&](const DeviceCosts& table) {
         return (table.device_class == device_class(info)) + table.device_class.starts_with(info.type + ",");
@@ -74,6 +88,7 @@ DeviceCosts costs_of(const DeviceInfo& info) {
         if (own.device != info.name || own.driver != info.driver || own.device_class != device_class(info)) continue;
         costs.device_class = own.device_class, costs.device = own.device, costs.driver = own.driver;
         for (const auto& [kind, variants] : own.kinds) costs.kinds[kind] = variants;
+        for (const auto& [kind, rows] : own.areas) costs.areas[kind] = rows;
     }
     return costs;
 }
@@ -97,8 +112,18 @@ void write_costs(const std::filesystem::path& file, const std::vector<DeviceCost
             for (const auto& [precision, cost] : variants)
                 kinds[kind][precision_name(precision)] = {
                     {"ns", rounded(cost.ns)}, {"p99", rounded(cost.p99)}, {"max", rounded(cost.max)}};
-        devices.push_back(
-            {{"class", table.device_class}, {"device", table.device}, {"driver", table.driver}, {"kinds", kinds}});
+        nlohmann::ordered_json areas = nlohmann::ordered_json::object();
+        for (const auto& [kind, rows] : table.areas)
+            for (const auto& [taps, cost] : rows)
+                areas[kind].push_back({{"taps", taps},
+                                       {"ns", rounded(cost.ns)},
+                                       {"median", rounded(cost.median)},
+                                       {"p99", rounded(cost.p99)}});
+        devices.push_back({{"class", table.device_class},
+                           {"device", table.device},
+                           {"driver", table.driver},
+                           {"kinds", kinds},
+                           {"areas", areas}});
     }
     const std::string text =
         nlohmann::ordered_json{{"devices", devices}}.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +

@@ -143,7 +143,7 @@ DeviceCosts measure_costs(const Device& device, const std::vector<Scene>& scenes
     return guarded("tune", [&] {
         Tuner tuner(device, options);
         for (const Scene& scene : scenes) tuner.measure(scene);
-        return DeviceCosts{device_class(device.info), device.info.name, device.info.driver, tuner.kinds()};
+        return DeviceCosts{device_class(device.info), device.info.name, device.info.driver, tuner.kinds(), {}};
     });
 }
 
@@ -156,8 +156,10 @@ void merge_costs(const std::filesystem::path& file, const DeviceCosts& measured)
     });
     if (same == tables.end())
         tables.push_back(measured);
-    else
+    else {
         for (const auto& [kind, variants] : measured.kinds) same->kinds[kind] = variants;
+        for (const auto& [kind, rows] : measured.areas) same->areas[kind] = rows;
+    }
     write_costs(file, tables);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/explain_area.h"
 #include "cli/explain_budget.h"
 #include "cli/format_option.h"
 #include "cli/frame_list.h"
@@ -132,7 +133,7 @@ nlohmann::json bins_json(const std::optional<BinReport>& bins) {
             {"inherited", bins->inherited}};
 }
 
-void print_json(const Plan& plan, double operations, const OnDevice& on, const std::vector<VolumeReport>& volumes) {
+void print_json(const Plan& plan, const Scene& scene, double operations, const OnDevice& on, const std::vector<VolumeReport>& volumes) {
     const auto& [device, budget, bins] = on;
     nlohmann::json sections = nlohmann::json::array();
     for (const SectionSummary& section : plan.sections)
@@ -149,6 +150,7 @@ void print_json(const Plan& plan, double operations, const OnDevice& on, const s
                                                 {"bins", bins_json(bins.decals)},
                                                 {"light_bins", bins_json(bins.lights)},
                                                 {"volumes", volumes_json(volumes)},
+                                                {"areas", areas_json(scene, device)},
                                                 {"budget", budget ? choice_json(*budget) : nlohmann::json()},
                                                 {"source", plan.source}}));
 }
@@ -179,7 +181,7 @@ void explain(const ExplainArguments& arguments) {
     for (const SectionSummary& section : plan.sections) operations += section.operations;
     const std::vector<VolumeReport> volumes = volumes_of(plan);
     if (arguments.json) {
-        print_json(plan, operations, on, volumes);
+        print_json(plan, scene, operations, on, volumes);
         return;
     }
     fmt::print("{}: {} x {} pixels\n\n", scene.file.string(), frame.size.width, frame.size.height);
@@ -196,6 +198,7 @@ void explain(const ExplainArguments& arguments) {
         fmt::print("on {}, {} lanes: {}\n", on.device->info.name, on.device->info.lanes,
                    flags_of(*on.device, on.budget));
     if (on.budget) print_choice(*on.budget);
+    print_areas(scene, on.device);
     if (scene.budget.max_area_error)
         fmt::print(
             "\nmax_area_error {} degrees: a run measures which is the fewest taps, of {} at most, that keep it\n",

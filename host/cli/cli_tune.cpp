@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "budget/tune.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "tools/area_costs.h"
 #include "wrinkle/error.h"
 
 namespace wrinkle::cli {
@@ -19,6 +21,16 @@ struct TuneArguments {
     TuneOptions options;
     bool quiet = false;
 };
+
+/// Pixels whose areas are integrated are fewer: each takes 1024 points.
+AreaOptions area_options(const TuneArguments& arguments) {
+    constexpr int most_pixels = 400;
+    return {.sample = std::min(arguments.options.sample, most_pixels),
+            .seed = arguments.options.seed,
+            .bumped = true,
+            .repeat = arguments.options.repeat,
+            .device = arguments.device};
+}
 
 /// Prints the old and the new costs of every kind and variant side by side.
 void print_changes(const DeviceCosts& before, const DeviceCosts& after) {
@@ -39,6 +51,16 @@ void print_changes(const DeviceCosts& before, const DeviceCosts& after) {
         }
 }
 
+/// Prints what taps cost every kind that was measured, and what they leave.
+void print_areas(const DeviceCosts& costs) {
+    if (costs.areas.empty()) return;
+    fmt::print("\nover the areas that pixels show\n\n  {:<22}{:>6}{:>12}{:>24}{:>10}\n", "kind", "taps", "ns/pixel",
+               "degrees off: median", "99%");
+    for (const auto& [kind, rows] : costs.areas)
+        for (const auto& [taps, cost] : rows)
+            fmt::print("  {:<22}{:>6}{:>12.2f}{:>24.3g}{:>10.3g}\n", kind, taps, cost.ns, cost.median, cost.p99);
+}
+
 void tune(TuneArguments& arguments) {
     const std::filesystem::path file = arguments.file.empty() ? user_costs_file() : arguments.file;
     if (file.empty()) throw Error("there is no cache folder (WRINKLE_CACHE_DIR, XDG_CACHE_HOME, HOME); give --output");
@@ -46,14 +68,17 @@ void tune(TuneArguments& arguments) {
     for (const auto& scene : arguments.scenes) scenes.push_back(load_scene(scene));
     const Device device = Device::open(arguments.device);
     const DeviceCosts before = costs_of(device.info);
-    if (!arguments.quiet)
-        arguments.options.progress = [](const std::string& what) { fmt::print(stderr, "{}\n", what); };
-    const DeviceCosts after = measure_costs(device, scenes, arguments.options);
+    arguments.options.progress = [&](const std::string& what) {
+        if (!arguments.quiet) fmt::print(stderr, "{}\n", what);
+    };
+    DeviceCosts after = measure_costs(device, scenes, arguments.options);
+    after.areas = measure_area_costs(scenes, area_options(arguments), arguments.options.progress);
     std::error_code failed;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
     merge_costs(file, after);
     if (!arguments.quiet) {
         print_changes(before, after);
+        print_areas(after);
         fmt::print("\nwrote {}\n", file.string());
     }
 }
@@ -62,10 +87,10 @@ void tune(TuneArguments& arguments) {
 
 void add_tune(CLI::App& app) {
     auto arguments = std::make_shared<TuneArguments>();
-    CLI::App* command = app.add_subcommand(
-        "tune",
-        "Measure what every variant of the scenes' layers costs and errs by on this device: the table that a scene's "
-        "max_error is kept by");
+    CLI::App* command = app.add_subcommand("tune",
+                                           "Measure what every variant of the scenes' layers costs and errs by on this "
+                                           "device, and every number of taps: the "
+                                           "table that a scene's max_error is kept by, and that explain quotes");
     command->add_option("SCENE", arguments->scenes, "scene files (TOML), such as data/scenes/*.toml")->required();
     add_device_option(*command, arguments->device);
     command->add_option("-o,--output", arguments->file, "the table; else precision.json in the cache folder")

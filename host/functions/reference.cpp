@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "device/kernel_sources.h"
+#include "functions/area_table.h"
 #include "functions/kernel_listing.h"
 #include "functions/tables.h"
 
@@ -266,7 +267,7 @@ std::string reference_page() {
             if (function.file == file) here.push_back(&function);
         if (!here.empty()) text += evaluated_functions(here);
     }
-    return text;
+    return text + area_table();
 }
 
 }  // namespace wrinkle

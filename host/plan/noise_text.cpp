@@ -166,7 +166,7 @@ std::string noise_over(LayerText& at, const NoiseOf& of, const NoiseSpace& space
         at.active_at_any_point = true;
         // A layer can have several noises: a triplanar has one for each plane.
         const std::string held = fmt::format("held_{}", 4 * first);
-        at.declared += fmt::format("        wr_field {}[{}];\n", held, l.octaves);
+        at.declared += fmt::format("        wr_held {}[{}];\n", held, l.octaves);
         text += fmt::format("        wr_walk walk = {{tap, taps.count - (wr_real)((WR_SCALAR)tap), {}, {}}};\n",
                             space.step, held);
         walk = ", &walk, &lost";

@@ -24,6 +24,8 @@ namespace {
 
 using Imath::V3d;
 
+constexpr double kTilted = 1e-4;  // degrees; rounding turns normals by less
+
 const std::vector<std::string> kNormals{"normal.x", "normal.y", "normal.z"};
 
 Scene with_taps(const Scene& scene, int taps) {
@@ -172,15 +174,15 @@ AreaErrors measure_area(const Scene& scene, const AreaOptions& options) {
                 const std::size_t pixel = random() % pixels;
                 const auto truth = integral.over(static_cast<std::uint32_t>(pixel % width),
                                                  static_cast<std::uint32_t>(pixel / width), pixel);
-                if (truth)
+                if (truth && (!options.bumped || degrees_between(truth->base, truth->normal) > kTilted))
                     truths.push_back(*truth);
                 else
                     ++errors.passed_over;
             }
         }
         if (truths.empty())
-            throw Error(fmt::format("{}: none of {} pixels shows a surface whose area can be integrated",
-                                    reader.path().string(), errors.passed_over));
+            throw Error(fmt::format("{}: none of {} pixels shows a {}surface whose area can be integrated",
+                                    reader.path().string(), errors.passed_over, options.bumped ? "bumped " : ""));
         in.unmap();
         std::vector<double> unbumped;
         for (const Truth& truth : truths) unbumped.push_back(degrees_between(truth.base, truth.normal));

@@ -12,9 +12,10 @@ namespace wrinkle {
 struct AreaOptions {
     std::vector<int> taps{1, 2, 4, 8, 16};  ///< of [filter], to compare
     int frame = 0;
-    int sample = 400;  ///< pixels whose area is integrated
-    int seed = 1;      ///< which ones
-    int repeat = 5;    ///< runs of each kernel over the frame; their median counts
+    int sample = 400;     ///< pixels whose area is integrated
+    int seed = 1;         ///< which ones
+    bool bumped = false;  ///< only pixels whose normals the bumps tilt; else all that show a surface
+    int repeat = 5;       ///< runs of each kernel over the frame; their median counts
     std::string device;
 };
 
@@ -27,9 +28,10 @@ struct TapsError {
 
 struct AreaErrors {
     std::vector<TapsError> taps;
-    ErrorStats unbumped;          ///< the same of the frame's own normals
-    std::size_t passed_over = 0;  ///< drawn pixels that have no area to integrate: background, rims, seams
-    bool fp64 = false;            ///< integrated in double
+    ErrorStats unbumped;  ///< the same of the frame's own normals
+    std::size_t passed_over =
+        0;              ///< drawn pixels with no area to integrate (background, rims, seams) or, where asked, no bump
+    bool fp64 = false;  ///< integrated in double
 };
 
 /// Measures what normals miss of the areas that pixels show: the mean surface gradient of a sample of pixels is

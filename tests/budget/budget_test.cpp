@@ -4,6 +4,7 @@
 
 #include "budget/choose_precision.h"
 #include "budget/error_sample.h"
+#include "budget/tune.h"
 #include "layers/kinds.h"
 #include "run/frame_run.h"
 #include "tests/io/files.h"
@@ -119,7 +120,7 @@ TEST(Budget, TheTableKnowsEveryLayerOfTheScenes) {
 /// Two noises and a constant, with a table of round numbers.
 struct TwoNoises {
     Scene scene;
-    DeviceCosts costs{.device_class = "cpu, 16 lanes", .device = "made up", .driver = "", .kinds = {}};
+    DeviceCosts costs{.device_class = "cpu, 16 lanes", .device = "made up", .driver = "", .kinds = {}, .areas = {}};
 
     TwoNoises() {
         scene.layers.resize(3);
@@ -203,6 +204,33 @@ TEST(Budget, DamagedTablesAreNamed) {
     EXPECT_EQ(again.device, "made up");
     EXPECT_EQ(again.find("noise perlin", Precision::exact).value().max, 0.01);
     EXPECT_FALSE(again.find("noise perlin", Precision::fast));
+    EXPECT_FALSE(again.find_taps("noise perlin", 16)) << "none was measured";
+}
+
+TEST(Budget, TablesKnowTaps) {
+    const TempFolder folder;
+    TwoNoises made;
+    made.costs.areas["noise perlin"] = {{2, {3, 0.5, 4}}, {8, {6, 0.25, 2}}};
+    merge_costs(folder / "costs.json", made.costs);
+    made.costs.areas = {{"decal", {{1, {1, 0, 9}}}}};
+    merge_costs(folder / "costs.json", made.costs);  // adds a kind, and keeps the other
+    const DeviceCosts read = read_costs(folder / "costs.json").at(0);
+    EXPECT_EQ(read.find_taps("decal", 16).value().second.p99, 9);
+    const auto most = read.find_taps("noise perlin", 16).value(), fewer = read.find_taps("noise perlin", 7).value();
+    EXPECT_EQ(most.first, 8);
+    EXPECT_EQ(most.second.ns, 6);
+    EXPECT_EQ(most.second.median, 0.25);
+    EXPECT_EQ(fewer.first, 2);
+    EXPECT_FALSE(read.find_taps("noise perlin", 1)) << "fewer than were measured";
+    EXPECT_FALSE(read.find_taps("volume", 16));
+    const auto shipped = shipped_costs().at(0).areas;
+    for (const LayerKind* kind : layer_kinds()) {
+        const auto of_kind = [&](const auto& row) {
+            return (row.first + ' ').starts_with(std::string(kind->name) + ' ');
+        };
+        EXPECT_TRUE(kind->ends_stage || kind->once_a_pixel || std::ranges::any_of(shipped, of_kind))
+            << kind->name << ": kernels/precision.json does not say what it misses of areas";
+    }
 }
 
 TEST(ErrorSample, NeedsDoublePrecision) {

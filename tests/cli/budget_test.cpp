@@ -62,6 +62,12 @@ TEST(BudgetOption, ExplainTellsWhatARunStartsWith) {
     EXPECT_TRUE(standard.at("budget").is_null());
     EXPECT_TRUE(standard.at("device").is_null()) << "none is needed";
     EXPECT_EQ(explained("--device 0 --lanes 4").at("device").at("lanes"), 4);
+    const auto areas = standard.at("areas");
+    EXPECT_EQ(areas.at("taps"), 16);
+    const auto dune = areas.at("degrees").at(0);
+    EXPECT_EQ(dune.at("kind"), "noise perlin");
+    EXPECT_EQ(dune.at("scene_taps").at("taps"), 16);
+    EXPECT_LT(dune.at("scene_taps").at("median"), dune.at("one_tap").at("median"));
 
     place.write_scene("[budget]\nmax_error = 0.75\n" + dunes);
     const auto loose = explained("");
@@ -147,14 +153,23 @@ TEST(BudgetOption, BadValuesAreRefused) {
 
 TEST(Tune, WritesATableThatRunsChooseBy) {
     const Workplace place;
-    place.write_scene(dunes);
+    place.write_scene(dunes.substr(0, dunes.find("footprint")));  // filtered, so that taps count
     const std::string cache = "WRINKLE_CACHE_DIR='" + (place / "cache").string() + "'";
     const Ran tuned = place.run("tune scene.toml --repeat 1 --sample 500", cache);
     ASSERT_EQ(tuned.code, 0) << tuned.err;
     expect_mentions(tuned.out,
                     {"noise perlin", "standard", "exact", "double", "geometry", "->", "cache/precision.json"});
     expect_mentions(tuned.err, {"scene.toml: layer \"dunes\""});
+    expect_mentions(tuned.out, {"over the areas that pixels show", "degrees off: median"});
     auto table = nlohmann::json::parse(read_text(place / "cache/precision.json"));
+    const auto& rows = table.at("devices").at(0).at("areas").at("noise perlin");
+    EXPECT_EQ(rows.size(), 5u);
+    EXPECT_EQ(rows.at(4).at("taps"), 16);
+    EXPECT_GT(rows.at(0).at("p99").get<double>(), rows.at(4).at("p99").get<double>());
+    expect_mentions(
+        place.run("explain scene.toml --no-source --device 0", cache).out,
+        {"areas of pixels, with 16 taps", "one tap",
+         fmt::format("{:.2g}, {:.2g}", rows.at(4).at("median").get<double>(), rows.at(4).at("p99").get<double>())});
     auto& noise = table.at("devices").at(0).at("kinds").at("noise perlin");
     EXPECT_GE(noise.at("standard").at("ns").get<double>(), 0);
     EXPECT_GT(noise.at("standard").at("max").get<double>(), noise.at("exact").at("max").get<double>());
