@@ -104,6 +104,9 @@ typedef struct {
 // The table of GGX's lobes: along each side, over the root of the cosine to the normal and over the roughness.
 #define WR_LOBE_SIZE 32
 
+// Pictures of what metal mirrors (shade/metal.clh): cells along each side.
+#define WR_METAL_SIZE 32
+
 // Columns of a block of pixels (surface/pixel_block.clh), whose rows are loaded by vload4. Host and kernels count the
 // blocks of a frame by it.
 #define WR_BLOCK_WIDTH 4

@@ -22,6 +22,7 @@
 #include "run/open_frame.h"
 #include "run/pass_impl.h"
 #include "tools/frame_lights.h"
+#include "tools/metal_pictures.h"
 #include "wrinkle/error.h"
 
 #include "layout.h"
@@ -162,6 +163,7 @@ void explain(const ExplainArguments& arguments) {
     check_frame_pattern(frame_files(file), "--frame", arguments.frame.has_value());
     const int number = arguments.frame.value_or(0);
     if (wants_lights(scene)) scene = with_lights(scene, find_lights(scene, number));
+    if (wants_metals(scene)) scene = with_metals(scene, metals_of_frame(scene, number));
     GBufferReader reader = open_frame(scene, number);
     const FrameCamera camera = camera_of_frame(scene, reader, number, CameraCheck::none);
     const Frame frame = frame_of(scene, reader, camera);

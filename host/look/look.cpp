@@ -51,6 +51,7 @@ void Look::open(const Scene& scene, int frame) {
     number_ = frame;
     planes_ = std::make_shared<WholePlanes>();
     lights_.reset();
+    metals_.reset();
     for (auto* const pass : {&pass_, &bare_})
         if (*pass) (*pass)->set_camera(camera_.camera);
 }
@@ -67,6 +68,11 @@ Scene Look::prepared(const Scene& scene) {
     out.budget = {};
     out.output = {};
     out.output.roughness = out.output.dp_dx = out.output.dp_dy = out.output.marked = true;
+    if (wants_metals(out)) {
+        if (!metals_) metals_ = metals_of_frame(out, number_);
+        if (!metals_) metals_ = std::make_shared<const std::vector<MetalPicture>>();
+        out = with_metals(std::move(out), metals_);
+    }
     if (!wants_lights(out)) return out;
     // Lights that a scene names may have been edited, and with them how strong they are beside the picture.
     if (!lights_ || !lights_->all || !scene.lighting.lights.empty()) lights_ = find_lights(scene, number_);

@@ -13,6 +13,7 @@
 #include "run/open_frame.h"
 #include "run/pass_impl.h"
 #include "tools/frame_lights.h"
+#include "tools/metal_pictures.h"
 
 namespace wrinkle {
 
@@ -72,6 +73,7 @@ private:
     FrameCamera camera_;
     int number_ = 0;
     std::optional<FoundLights> lights_;
+    MetalPictures metals_;
     std::shared_ptr<WholePlanes> planes_;
     std::optional<Pass> pass_, bare_;  ///< of the scene; of its lights alone
     Frame pass_for_;

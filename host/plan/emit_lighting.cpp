@@ -32,6 +32,7 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
         sky_is_sent_on(emitter) ? "wr_multiply3(albedo, wr_sky(lighting, {n}, base))" : "wr_sky(lighting, {n}, base)";
     std::vector<LitTerm> terms{{"lit_sky", mirrors && !apart ? with_gloss(sky) : sky}};
     if (mirrors && apart) terms.push_back({"lit_gloss", kMirroredSkies});
+    if (relights_metal(emitter)) terms.push_back({"lit_metal", kMirroredByMetal});
     const std::size_t last = shared_numbers(emitter), alone = count_read_apart(emitter);
     for (std::size_t k = alone > 0 ? 1 : 0; k <= last + alone; ++k)  // no picture shows lights of a table
         terms.push_back(

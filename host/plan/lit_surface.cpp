@@ -28,6 +28,7 @@ std::string lit_surface_text(Emitter& emitter, Section& section) {
             "        wr_light_table light_table = {light_rows, light_lists, light_entries};\n"
             "        wr_index light_tile = wr_tile_number(wr_to_index(at.x), wr_to_index(at.y) - (int)first_row, "
             "(int)light_supers);\n";
+    if (relights_metal(emitter)) text += metal_object_text(emitter, section);
     return text + roughness_text(emitter, section);
 }
 

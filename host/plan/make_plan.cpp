@@ -132,6 +132,7 @@ std::vector<Section> emit_sections(Emitter& emitter) {
     }
     const int last = static_cast<int>(stages.size()) - 1;
     add_mirrored_skies(emitter);
+    add_metals(emitter);
     if (relight && emitter.options.write_normal) {
         LightEnd end{area.lights, area.spread, sums_light(emitter)};
         if (end.summed) add(emit_light_terms(emitter, end), last);

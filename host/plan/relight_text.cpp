@@ -119,6 +119,29 @@ std::string read_shadows_text(const Emitter& emitter) {
            "        change = wr_add(change, wr_relight_change(rest, lit_sky, old_lit_sky, lighting->max_ratio));\n";
 }
 
+/// Text that takes lights' changes from metal, which mirrors what is around it: where its own picture tells of that,
+/// metal changes by it, else it stays as it is.
+std::string metal_change_text(Emitter& emitter, Section& section) {
+    const bool relit = relights_metal(emitter);
+    std::string text;
+    if (relit)
+        text += fmt::format(
+            "        wr_vec3 metal_change = wr_relight_change({}, lit_metal, old_lit_metal,\n"
+            "            lighting->max_ratio);\n",
+            emitter.has("emission.r") ? "wr_max(wr_sub(beauty, emission), wr_zero3())" : "beauty");
+    if (emitter.has("metallic")) {
+        section.inputs.insert("metallic");
+        return text + "        wr_real metal = wr_mask_channel(wr_load(in_metallic, at.in));\n" +
+               (relit ? "        change = wr_fma(metal_change, metal, wr_scale(change, 1 - metal));\n"
+                      : "        change = wr_scale(change, 1 - metal);\n");
+    }
+    if (!section.inputs.contains("albedo.r")) return "";
+    return text +
+           fmt::format(
+               "        change = wr_select(fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO, change, {});\n",
+               relit ? "metal_change" : "wr_zero3()");
+}
+
 /// Text that declares `left`: 1 where the picture is to stay as it is.
 std::string left_text(Emitter& emitter, Section& section) {
     const MaskPlace place{"leave in [lighting]", "leave in [lighting]",
@@ -184,15 +207,7 @@ std::string relight_text(Emitter& emitter, Section& section) {
             "        change = wr_add(change, wr_relight_change(rest, lit, wr_add(old_lit, sky), "
             "lighting->max_ratio));\n";
     if (apart) text += shine_text(emitter, section, lit_name(pictures.size() + 1));
-    // Metal mirrors what is around it, which nobody knows: it stays as it is.
-    if (emitter.has("metallic")) {
-        section.inputs.insert("metallic");
-        text += "        change = wr_scale(change, 1 - wr_mask_channel(wr_load(in_metallic, at.in)));\n";
-    } else if (section.inputs.contains("albedo.r")) {
-        text +=
-            "        change = wr_select(fmax(fmax(albedo.x, albedo.y), albedo.z) > WR_METAL_ALBEDO, change, "
-            "wr_zero3());\n";
-    }
+    text += metal_change_text(emitter, section);
     if (has_part(emitter, "transmission"))
         text += part_text(emitter, section, "transmission", "through") +
                 fmt::format("        change = wr_beside_part(change, through, {});\n",

@@ -36,6 +36,7 @@ const std::vector<Value>& values() {
         {"spread", "wr_vec3", {".x", ".y", ".z"}},
         {"turning", "wr_vec3", {".x", ".y", ".z"}},
         {"lit_sky", "wr_vec3", {".x", ".y", ".z"}},
+        {"lit_metal", "wr_vec3", {".x", ".y", ".z"}},
         {"lit_gloss", "wr_vec3", {".x", ".y", ".z"}},
         {"around", "wr_vec3", {".x", ".y", ".z"}},
     };

@@ -163,6 +163,14 @@ void add_mirrored_skies(Emitter& emitter);
 /// The text of its call, with {n} and {roughness} for what stands there.
 inline constexpr const char* kMirroredSkies =
     "wr_mirrored_skies({n}, base, v, {roughness}, lighting->f0, texels, textures, numbers)";
+/// Whether metal of the scene is relit by what its own picture shows, for which kernels are compiled.
+bool relights_metal(const Emitter& emitter);
+/// Adds the function to the plan's helpers that gives what the scene's metals mirror, if there are some.
+void add_metals(Emitter& emitter);
+/// The text of its call, with {n} for what stands there; it takes `metal_object`.
+inline constexpr const char* kMirroredByMetal = "wr_mirrored_by_metal({n}, base, v, metal_object, numbers)";
+/// Text that declares `metal_object`, the number of the pixel's object.
+std::string metal_object_text(Emitter& emitter, Section& section);
 /// Lights that a pixel is expected to have: all without a table, and a few of it.
 double lights_of_pixel(const Emitter& emitter);
 /// What is known when the lighting is reached.

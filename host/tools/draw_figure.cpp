@@ -12,6 +12,7 @@
 #include "run/condition.h"
 #include "run/open_frame.h"
 #include "tools/frame_lights.h"
+#include "tools/metal_pictures.h"
 #include "tools/render.h"
 
 namespace wrinkle {
@@ -55,7 +56,8 @@ Shown show(const Device& device, const Scene& scene, const GBufferReader& reader
         return {show_condition(device, scene, reader, camera),
                 {"condition", "condition", "condition"},
                 PngEncoding::linear};
-    const Scene lit = wants_lights(scene) ? with_lights(scene, find_lights(scene, 0)) : scene;
+    Scene lit = wants_lights(scene) ? with_lights(scene, find_lights(scene, 0)) : scene;
+    if (wants_metals(lit)) lit = with_metals(lit, metals_of_frame(lit, 0));
     Pass pass = evaluate(device, lit, frame_of(scene, reader, camera));
     const Planes in = read_planes(reader, pass.inputs());
     Planes out;

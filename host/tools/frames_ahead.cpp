@@ -53,12 +53,20 @@ std::shared_ptr<const Scene> FramesAhead::scene_of(int number) {
     return shared_;
 }
 
+/// With what its metals mirror: of the objects that the first frame has.
+std::shared_ptr<const Scene> FramesAhead::with_metals_of(int number, std::shared_ptr<const Scene> scene) {
+    if (!wants_metals(*scene)) return scene;
+    if (!metals_ || !metals_->empty()) metals_ = metals_of_frame(*scene, number, metals_);
+    if (!metals_) metals_ = std::make_shared<const std::vector<MetalPicture>>();
+    return metals_->empty() ? scene : std::make_shared<const Scene>(with_metals(*scene, metals_));
+}
+
 FrameAhead FramesAhead::open(int number) {
     FrameAhead ahead;
     if (options_.provenance) ahead.provenance = options_.provenance(number);
     if (options_.resume && is_finished(number, ahead.provenance)) return ahead;
     clock_.measure(PhaseClock::read, [&] {
-        ahead.scene = scene_of(number);
+        ahead.scene = with_metals_of(number, scene_of(number));
         if (lights_) ahead.lights = summary(*lights_);
         GBufferReader reader = open_frame(*ahead.scene, number);
         reader.read_ahead();

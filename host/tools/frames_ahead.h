@@ -9,6 +9,7 @@
 #include "io/gbuffer_reader.h"
 #include "run/phase_clock.h"
 #include "tools/frame_lights.h"
+#include "tools/metal_pictures.h"
 #include "tools/render.h"
 
 namespace wrinkle {
@@ -43,6 +44,7 @@ private:
     bool is_finished(int number, const std::string& provenance) const;
     std::shared_ptr<const Scene> scene_of(int number);
     std::shared_ptr<const Scene> lit(const Scene& scene);
+    std::shared_ptr<const Scene> with_metals_of(int number, std::shared_ptr<const Scene> scene);
 
     const Scene& scene_;  ///< that of any frame, where they differ
     const RenderOptions& options_;
@@ -50,6 +52,7 @@ private:
     // Used by open() alone, which never runs twice at a time.
     std::shared_ptr<const Scene> shared_;
     std::optional<FoundLights> lights_;
+    MetalPictures metals_;
     std::future<FrameAhead> next_;  // last: the others have to outlive what it waits for
 };
 

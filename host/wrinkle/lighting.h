@@ -54,6 +54,15 @@ struct Light {
     std::string location{};  ///< "scene.toml:12" for messages; empty for lights made in code
 };
 
+/// What an object of metal mirrors, by the direction, as its own picture shows it: kVertices x kVertices radiances on
+/// an octahedron folded out to a square, z in its middle, x to the right, y up, row by row from the bottom.
+struct MetalPicture {
+    static constexpr std::size_t kVertices = 33;
+    /// Whose, in the plane `object`, where the frame has one; else that of all metal.
+    double object = 0;
+    std::vector<Vec3> seen = std::vector<Vec3>(kVertices * kVertices);
+};
+
 enum class Relight { off, lit, ratio };
 
 /// How a picture that is relit tells where a light reaches that has no picture of its own.
@@ -77,7 +86,10 @@ struct Lighting {
     /// follows how many reach a pixel. They have no pictures of their own.
     std::shared_ptr<const std::vector<Light>> table{};
     std::filesystem::path table_file{};  ///< that the table, or more lights, are from; empty for those made in code
-    std::optional<Mask> leave{};         ///< where the picture stays as it is; a mask without a texture
+    /// Relight::ratio: metal that is relit by what its own picture shows. `wrinkle run` makes them of each frame;
+    /// metal without one stays as it is.
+    std::shared_ptr<const std::vector<MetalPicture>> metals{};
+    std::optional<Mask> leave{};  ///< where the picture stays as it is; a mask without a texture
 };
 
 /// Projects a picture of all directions (latitude and longitude, linear; the top row is up, z; its middle column x,

@@ -1,6 +1,7 @@
 #include "tests/reference/evaluate.h"
 
 #include "tests/reference/blend.h"
+#include "tests/reference/metal.h"
 #include "tests/reference/relit.h"
 #include "tests/reference/volume_gradient.h"
 
@@ -140,6 +141,24 @@ std::vector<Light> read_apart(const Lighting& lighting, bool specular) {
     return apart;
 }
 
+/// Metal whose object has a picture, times the ratio of what that shows of the bumped direction and of the other.
+template <class T>
+Vec<T> SceneEvaluator<T>::relit_metal(std::size_t i, const Evaluated<T>& e, Vec<T> beauty) const {
+    const Lighting& lighting = scene_.lighting;
+    const double object = frame_.has("object") ? frame_.plane("object")[i] : 0;
+    for (std::size_t k = 0; lighting.metals && k < lighting.metals->size(); ++k) {
+        const MetalPicture& picture = (*lighting.metals)[k];
+        if (picture.object != object) continue;
+        const Vec<T> now = mirrored_by_metal(picture, e.normal, e.base_normal, e.view),
+                     old = mirrored_by_metal(picture, e.base_normal, e.base_normal, e.view);
+        const auto times = [&](T Vec<T>::*c) {
+            return beauty.*c * relight_ratio(now.*c, old.*c, T(lighting.max_ratio));
+        };
+        return {times(&Vec<T>::x), times(&Vec<T>::y), times(&Vec<T>::z)};
+    }
+    return beauty;
+}
+
 template <class T>
 Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
     const Lighting& lighting = scene_.lighting;
@@ -191,7 +210,7 @@ Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
     const Vec<T> a = surface.albedo;
     T metal = frame_.has("albedo.r") && std::max({a.x, a.y, a.z}) <= T(1) / 1000 ? T(1) : T(0);
     if (frame_.has("metallic")) metal = std::clamp(T(frame_.plane("metallic")[i]), T(0), T(1));
-    return picture * (1 - metal) + beauty * metal;
+    return picture * (1 - metal) + relit_metal(i, e, beauty) * metal;
 }
 
 template <class T>

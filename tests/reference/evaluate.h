@@ -32,6 +32,7 @@ public:
     /// The colour that the scene's lighting writes: the lit colour, or the beauty plane times the ratio of lit colours
     /// with the new and with the base normal.
     Vec<T> relit(std::size_t i, const Evaluated<T>& e) const;
+    Vec<T> relit_metal(std::size_t i, const Evaluated<T>& e, Vec<T> beauty) const;
 
 private:
     struct Entry {

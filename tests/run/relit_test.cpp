@@ -161,6 +161,45 @@ TEST(Relit, MetalOfItsPassStaysAsItIsByItsShare) {
     }
 }
 
+MetalPicture some_metal(double object, double phase) {
+    MetalPicture metal{.object = object};
+    for (std::size_t k = 0; k < metal.seen.size(); ++k) {
+        const double x = static_cast<double>(k % MetalPicture::kVertices),
+                     y = static_cast<double>(k) / MetalPicture::kVertices;
+        metal.seen[k] = {1.1 + std::sin(x / 3 + phase), 1.2 + std::cos(y / 4 + phase), 1.3 + std::sin((x + y) / 5)};
+    }
+    return metal;
+}
+
+TEST(Relit, MetalShowsWhatItsPictureDoesOfOtherDirections) {
+    HostFrame frame = passes_frame({"beauty", "albedo"});
+    std::vector<float>&object = frame.add("object"), &metallic = frame.add("metallic");
+    for (std::size_t i = 0; i < object.size(); ++i)
+        object[i] = static_cast<float>(i % 3 + 1), metallic[i] = i % 2 ? 1 : 0.75f;
+    Scene scene;
+    scene.layers.resize(1);
+    scene.layers[0].bump = ConstantLayer{{0.3, -0.2, 0}};
+    scene.lighting.relight = Relight::ratio;
+    scene.lighting.lights = {Light{.direction = {-0.6, 0, -0.8}}};
+    const auto two = [](double phase) {
+        return std::make_shared<const std::vector<MetalPicture>>(std::vector{some_metal(1, phase), some_metal(2, 3)});
+    };
+    scene.lighting.metals = two(0);
+    const Pixels got = evaluate_on(frame, scene);
+    const Truth truth(frame, scene);
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+        EXPECT_LE(length(vec_at(got, "lit", i) - truth.lit[i]) / length(truth.lit[i]), 2e-5) << i;
+        if (i % 2 == 0) continue;
+        EXPECT_EQ(got.at("lit.r")[i] == frame.pixels.at("beauty.r")[i], i % 3 == 2)
+            << i << ": the third has no picture";
+    }
+    Pass pass = evaluate(device(), scene, frame.frame);
+    scene.lighting.metals = two(1);
+    EXPECT_NO_THROW(pass.set_parameters(scene));
+    scene.lighting.metals.reset();
+    EXPECT_THROW(pass.set_parameters(scene), Error) << "how many metals there are is compiled in";
+}
+
 /// A tilted plane of grey, lit by a sun that a bump turns away from.
 HostFrame grey_plane() {
     HostFrame frame(plane_frame(test_camera(), {19, 5}, normalize(V{0.1, -0.2, 1})), test_camera());
