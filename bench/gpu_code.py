@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What GPUs would run, without one: compiles the kernels of every scene and every function at one lane for an AMD GPU (gfx906)
-and an NVIDIA one (sm_80) with clang and libclc, and prints registers, private memory and waves as a table. With a file that holds such
-a table, exit code 1 where a number has become worse than there or a row is missing; 77 where libclc is not installed.
+and an NVIDIA one (sm_80) with clang and libclc, and prints registers, private memory and waves as a table; of scenes also the registers
+that they need at one point a pixel ([filter] taps = 1). With a file that holds such a table, exit code 1 where a number has become worse than there or a row is missing; 77 where libclc is not installed.
 
     bench/gpu_code.py build/release/wrinkle [bench/README.md]    # Debian: clang-15, libclc-15, libclc-15-dev
 """
@@ -25,10 +25,10 @@ TARGETS = {
     "NVIDIA": (["-target", "nvptx64-nvidia-nvcl", "-Xclang", "-target-cpu", "-Xclang", "sm_80"],
                "nvptx64--nvidiacl.bc"),
 }
-HEAD = """| scene, kernel | AMD: vector registers | waves a SIMD | private bytes | NVIDIA: private bytes |
-|---|---|---|---|---|"""
+HEAD = """| scene, kernel | AMD: vector registers | waves a SIMD | private bytes | NVIDIA: private bytes | registers at one point |
+|---|---|---|---|---|---|"""
 FEW_REGISTERS = 48
-WORSE = (lambda a, b: a > b, lambda a, b: a < b, lambda a, b: a > b, lambda a, b: a > b)
+WORSE = (lambda a, b: a > b, lambda a, b: a < b, lambda a, b: a > b, lambda a, b: a > b, lambda a, b: a > b)
 
 
 def assembly(source, target):
@@ -70,25 +70,30 @@ def output_of(*arguments):
     return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
 
 
-def rows_of_source(name, source):
-    amd, nvidia = assembly(source, "AMD"), assembly(source, "NVIDIA")
-    return {f"{name}, {kernel.removeprefix('wr_')}": [*row, private_of_nvidia(nvidia, kernel)]
-            for kernel, row in kernels_of_amd(amd).items()}
+def rows_of_source(name, source, at_one_point):
+    amd, nvidia = kernels_of_amd(assembly(source, "AMD")), assembly(source, "NVIDIA")
+    one = amd if at_one_point == source else kernels_of_amd(assembly(at_one_point, "AMD"))
+    return {f"{name}, {kernel.removeprefix('wr_')}": [*row, private_of_nvidia(nvidia, kernel), one[kernel][0]]
+            for kernel, row in amd.items()}
+
+
+def source_of(scene, *arguments):
+    return json.loads(output_of("explain", "--lanes", "1", *arguments, "--json", scene))["source"]
 
 
 def rows_of(scene):
     """Of a scene's kernels; None: of those that "wrinkle eval" runs, with one row for all that need few registers."""
     if scene is not None:
-        return rows_of_source(scene.stem, json.loads(output_of("explain", "--lanes", "1", "--json", scene))["source"])
-    rows = {name.replace("columns_", ""): row
-            for name, row in rows_of_source("functions", output_of("eval", "--kernels")).items()}
-    few = {name: row for name, row in rows.items() if row[0] <= FEW_REGISTERS and not any(row[2:])}
-    worst = [pick(column) for pick, column in zip((max, min, max, max), zip(*few.values()))]
+        return rows_of_source(scene.stem, source_of(scene), source_of(scene, "--set", "filter.taps=1"))
+    source = output_of("eval", "--kernels")
+    rows = {name.replace("columns_", ""): row for name, row in rows_of_source("functions", source, source).items()}
+    few = {name: row for name, row in rows.items() if row[0] <= FEW_REGISTERS and not any(row[2:4])}
+    worst = [pick(column) for pick, column in zip((max, min, max, max, max), zip(*few.values()))]
     return {name: row for name, row in rows.items() if name not in few} | {"functions, all_others": worst}
 
 
 def rows_of_table(path):
-    rows = re.findall(r"^\| (\w+, \w+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", pathlib.Path(path).read_text(), re.MULTILINE)
+    rows = re.findall(r"^\| (\w+, \w+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", pathlib.Path(path).read_text(), re.MULTILINE)
     return {name: [int(n) for n in numbers] for name, *numbers in rows}
 
 

@@ -106,6 +106,8 @@ typedef struct {
 
 // Pictures of what metal mirrors (shade/metal.clh): cells along each side.
 #define WR_METAL_SIZE 32
+// So many of a scene are relit: constant memory holds their numbers everywhere, in double, too.
+#define WR_METALS 2
 
 // Columns of a block of pixels (surface/pixel_block.clh), whose rows are loaded by vload4. Host and kernels count the
 // blocks of a frame by it.

@@ -25,6 +25,13 @@ double number(const nlohmann::json& object, const char* key) {
     return value;
 }
 
+int taps_of(const nlohmann::json& row) {
+    const double taps = number(row, "taps");
+    if (!(taps >= 1 && taps <= 64 && taps == std::floor(taps)))
+        throw Error(fmt::format("\"taps\" is {}, and they are whole numbers from 1 to 64", taps));
+    return static_cast<int>(taps);
+}
+
 std::vector<DeviceCosts> parse(const std::string& text, const std::string& name) {
     try {
         std::vector<DeviceCosts> tables;
@@ -42,8 +49,7 @@ std::vector<DeviceCosts> parse(const std::string& text, const std::string& name)
             const auto areas = entry.value("areas", nlohmann::json::object());  // older tables have none
             for (const auto& [kind, rows] : areas.items())
                 for (const auto& row : rows)
-                    table.areas[kind][row.at("taps").get<int>()] = {number(row, "ns"), number(row, "median"),
-                                                                    number(row, "p99")};
+                    table.areas[kind][taps_of(row)] = {number(row, "ns"), number(row, "median"), number(row, "p99")};
         }
         return tables;
     } catch (const nlohmann::json::exception&) {

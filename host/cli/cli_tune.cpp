@@ -71,10 +71,11 @@ void tune(TuneArguments& arguments) {
     arguments.options.progress = [&](const std::string& what) {
         if (!arguments.quiet) fmt::print(stderr, "{}\n", what);
     };
-    DeviceCosts after = measure_costs(device, scenes, arguments.options);
-    after.areas = measure_area_costs(scenes, area_options(arguments), arguments.options.progress);
     std::error_code failed;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
+    DeviceCosts after = measure_costs(device, scenes, arguments.options);
+    merge_costs(file, after);  // so that it is kept if the rest is interrupted
+    after.areas = measure_area_costs(scenes, area_options(arguments), arguments.options.progress);
     merge_costs(file, after);
     if (!arguments.quiet) {
         print_changes(before, after);

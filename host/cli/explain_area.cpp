@@ -26,13 +26,15 @@ std::vector<Expected> expected(const Scene& scene, const DeviceCosts& costs) {
     for (const Layer& layer : scene.layers) {
         if (kind_of(layer_kinds(), layer).ends_stage) continue;
         const std::string kind = cost_kind(layer_kinds(), layer).name;
-        rows.push_back({layer.name, kind, costs.find_taps(kind, 1), costs.find_taps(kind, scene.filter.taps)});
+        const int taps = layer.footprint ? scene.filter.taps : 1;  // those that are not filtered have one point
+        rows.push_back({layer.name, kind, costs.find_taps(kind, 1), costs.find_taps(kind, taps)});
     }
     return rows;
 }
 
 std::string degrees_text(const std::optional<std::pair<int, TapsCost>>& row) {
-    return row ? fmt::format("{:.2g}, {:.2g}", row->second.median, row->second.p99) : "not in the table";
+    return row ? fmt::format("{}: {:.2g}, {:.2g}", row->first, row->second.median, row->second.p99)
+               : "not in the table";
 }
 
 nlohmann::json degrees_json(const std::optional<std::pair<int, TapsCost>>& row) {
@@ -49,10 +51,10 @@ void print_areas(const Scene& scene, const std::optional<Device>& device) {
     fmt::print(
         "\nareas of pixels, with {} tap{} at most: degrees off, median and 99%, of each kind by itself on the scenes "
         "that\n"
-        "the table of {} was measured on; \"wrinkle area {}\" measures this one\n"
+        "the table of costs was measured on (\"wrinkle tune\"); \"wrinkle area {}\" measures this one\n"
         "  {:<34}{:<22}{:>18}{:>18}\n",
-        scene.filter.taps, scene.filter.taps == 1 ? "" : "s", costs.device, scene.file.string(), "layer", "kind",
-        "one tap", "the scene's");
+        scene.filter.taps, scene.filter.taps == 1 ? "" : "s", scene.file.string(), "layer", "kind", "one tap",
+        "the scene's");
     for (const Expected& row : rows)
         fmt::print("  {:<34}{:<22}{:>18}{:>18}\n", row.layer, row.kind, degrees_text(row.one), degrees_text(row.own));
 }
@@ -65,7 +67,7 @@ nlohmann::json areas_json(const Scene& scene, const std::optional<Device>& devic
                           {"kind", row.kind},
                           {"one_tap", degrees_json(row.one)},
                           {"scene_taps", degrees_json(row.own)}});
-    return {{"taps", scene.filter.taps}, {"costs", costs.device}, {"degrees", layers}};
+    return {{"taps", scene.filter.taps}, {"degrees", layers}};
 }
 
 }  // namespace wrinkle::cli

@@ -28,18 +28,22 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
                         table ? ", light_table, light_tile, valid" : "");
         return {{"lit", mirrors ? with_gloss(lit) : lit}};
     }
-    const std::string sky =
-        sky_is_sent_on(emitter) ? "wr_multiply3(albedo, wr_sky(lighting, {n}, base))" : "wr_sky(lighting, {n}, base)";
+    const std::string around = "wr_multiply3(faint, wr_sky(lighting, {n}, base))",
+                      sent_on = fmt::format("wr_multiply3(albedo, {})", around),
+                      sky = sky_is_sent_on(emitter) ? sent_on : around;
     std::vector<LitTerm> terms{{"lit_sky", mirrors && !apart ? with_gloss(sky) : sky}};
     if (mirrors && apart) terms.push_back({"lit_gloss", kMirroredSkies});
     if (relights_metal(emitter)) terms.push_back({"lit_metal", kMirroredByMetal});
-    const std::size_t last = shared_numbers(emitter), alone = count_read_apart(emitter);
-    for (std::size_t k = alone > 0 ? 1 : 0; k <= last + alone; ++k)  // no picture shows lights of a table
+    const std::size_t last = shared_numbers(emitter), alone = count_read_apart(emitter),
+                      own = pictures_of(emitter.scene.lighting).size();
+    for (std::size_t k = alone > 0 ? 1 : 0; k <= last + alone; ++k) {  // no picture shows lights of a table
+        const std::string given =
+            fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k);
+        const bool has_picture = k >= 1 && k <= own;
         terms.push_back(
-            {lit_name(k),
-             with_table(
-                 fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k),
-                 k == 0, k == (apart ? last : 0))});
+            {lit_name(k), with_table(has_picture ? fmt::format("wr_fma({}, bounce_{}, {})", sent_on, k, given) : given,
+                                     k == 0, k == (apart ? last : 0))});
+    }
     return terms;
 }
 
@@ -75,7 +79,7 @@ Section emit_light_terms(Emitter& emitter, const LightEnd& end) {
     section.body = lit_surface_text(emitter, section);
     if (specular_apart(emitter) && emitter.scene.lighting.shadows != Shadows::read && !mirrors_sky(emitter)) {
         section.writes.insert("around");
-        section.body += "        around = wr_select(valid, wr_sky(lighting, base, base), wr_zero3());\n";
+        section.body += "        around = wr_select(valid, sky_on_base, wr_zero3());\n";
     }
     const std::string now = roughness_now(section, terms, end, lights_of_pixel(emitter));
     for (const LitTerm& term : terms) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "plan/geometry_text.h"
+#include "plan/light_pictures.h"
 #include "plan/section.h"
 #include "scene/light_extent.h"
 
@@ -28,6 +29,15 @@ std::string lit_surface_text(Emitter& emitter, Section& section) {
             "        wr_light_table light_table = {light_rows, light_lists, light_entries};\n"
             "        wr_index light_tile = wr_tile_number(wr_to_index(at.x), wr_to_index(at.y) - (int)first_row, "
             "(int)light_supers);\n";
+    const Lighting& lighting = emitter.scene.lighting;
+    if (lighting.relight == Relight::ratio) {
+        text +=
+            "        const wr_vec3 faint = wr_faint_light(p, lighting, lights);\n"
+            "        const wr_vec3 sky_on_base = wr_multiply3(faint, wr_sky(lighting, base, base));\n";
+        for (std::size_t k = 1; k <= pictures_of(lighting).size(); ++k)
+            text += fmt::format(
+                "        const wr_real bounce_{0} = wr_bounce({0}, p, sky_on_base, lighting, lights);\n", k);
+    }
     if (relights_metal(emitter)) text += metal_object_text(emitter, section);
     return text + roughness_text(emitter, section);
 }

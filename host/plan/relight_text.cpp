@@ -188,8 +188,7 @@ std::string relight_text(Emitter& emitter, Section& section) {
                 fmt::format(
                     "        own_{0} = wr_max(wr_select(own_{0}_seen, own_{0}, wr_zero3()), wr_zero3());\n"
                     "        rest = wr_sub(rest, own_{0});\n"
-                    "        change = wr_add(change, wr_relight_change(own_{0}, wr_with_bounce({1}, sky_now),\n"
-                    "            wr_with_bounce(old_{1}, sky), lighting->max_ratio));\n",
+                    "        change = wr_add(change, wr_relight_change(own_{0}, {1}, old_{1}, lighting->max_ratio));\n",
                     k, lit_name(k));
     if (emitter.has("emission.r"))
         text += load_text(section, "emission", {"emission.r", "emission.g", "emission.b"}) +

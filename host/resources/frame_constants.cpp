@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/vec.h"
 #include "io/object_ids.h"
@@ -25,9 +24,6 @@ void put_low(double (&to)[n], const double (&from)[n]) {
 }
 
 Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-
-/// Light that no scene tells of, from all around, over what a white surface shows of a light: a sun, or another at 1 m.
-constexpr double kFaint = 0.02;
 
 /// Screen (x right, y down, pixels; depth as NDC z) to NDC.
 Mat4 ndc_from_screen(Size size) {
@@ -200,10 +196,8 @@ FrameConstants frame_constants(const Plan& plan, const NumberSource& source, con
     // what the lights would give then counts as in full shadow.
     const bool dark = std::ranges::all_of(out.lighting.sky, [](double k) { return k == 0; });
     out.lighting.shadow = dark ? 0.5 : 0;
-    // All that no light explains is then taken to come from all around, faint beside what lights give.
-    if (dark && lighting.relight == Relight::ratio)
-        for (const wr_light& light : out.lights)
-            for (std::size_t c = 0; c < 3; ++c) out.lighting.sky[c] += kFaint * light.color[c] / std::numbers::pi;
+    // All that no light explains is then taken to come from all around; wr_faint_light tells how bright that is.
+    if (dark && lighting.relight == Relight::ratio) std::fill_n(out.lighting.sky, 3, 1.0);
     put(out.lighting.albedo, lighting.albedo);
     out.lighting.roughness = lighting.roughness;
     out.lighting.f0 = lighting.f0;

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace wrinkle {
@@ -57,22 +58,25 @@ private:
 }  // namespace
 
 void run_bands(std::uint32_t bands, std::uint32_t in_flight, const BandStages& stages) {
-    if (bands == 1) {  // nothing that could run beside it
-        stages.read(0), stages.evaluate(0), stages.write(0);
-        return;
-    }
-    Progress progress(bands, in_flight);
-    {
-        std::jthread reader, writer;
-        try {
-            reader = std::jthread([&] { progress.go_through(0, stages.read); });
-            writer = std::jthread([&] { progress.go_through(2, stages.write); });
-            progress.go_through(1, stages.evaluate);
-        } catch (...) {
-            progress.fail(std::current_exception());  // no thread to be had
+    bool threads = bands > 1;  // nothing runs beside a band that is the only one
+    if (threads) {
+        Progress progress(bands, in_flight);
+        {
+            std::jthread reader, writer;
+            try {
+                // The writer waits, so that nothing has begun where there is no thread for the reader.
+                writer = std::jthread([&] { progress.go_through(2, stages.write); });
+                reader = std::jthread([&] { progress.go_through(0, stages.read); });
+                progress.go_through(1, stages.evaluate);
+            } catch (const std::system_error&) {
+                threads = false;
+                progress.fail(std::current_exception());
+            }
         }
+        if (threads) progress.check();
     }
-    progress.check();
+    for (std::uint32_t band = 0; band < bands && !threads; ++band)
+        stages.read(band), stages.evaluate(band), stages.write(band);
 }
 
 }  // namespace wrinkle

@@ -56,6 +56,8 @@ std::shared_ptr<const Scene> FramesAhead::scene_of(int number) {
 /// With what its metals mirror: of the objects that the first frame has.
 std::shared_ptr<const Scene> FramesAhead::with_metals_of(int number, std::shared_ptr<const Scene> scene) {
     if (!wants_metals(*scene)) return scene;
+    const int first = options_.frames.empty() ? number : options_.frames.front();
+    if (!metals_ && number != first) metals_ = metals_of_frame(*scene, first);  // where that is finished already
     if (!metals_ || !metals_->empty()) metals_ = metals_of_frame(*scene, number, metals_);
     if (!metals_) metals_ = std::make_shared<const std::vector<MetalPicture>>();
     return metals_->empty() ? scene : std::make_shared<const Scene>(with_metals(*scene, metals_));

@@ -11,15 +11,16 @@
 #include "run/open_frame.h"
 #include "tools/frame_rows.h"
 
+#include "layout.h"
+
 namespace wrinkle {
 namespace {
 
 constexpr std::size_t kSide = MetalPicture::kVertices, kCells = kSide - 1;
-constexpr std::size_t kMostMetals = 3;  // their numbers together stay below what constant memory holds everywhere
-constexpr double kLeastPixels = 200;    // of an object, else bumps would show a few pixels over and over
-constexpr double kLeastCovered = 0.25;  // of all directions: a box shows 3%, cans and balls 70% and more
-constexpr float kMetal = 0.9f, kBlack = 1e-3f;                 // of the metallic pass, of an albedo
-constexpr std::uint32_t kRows = 64, kProbe = 16, kProbes = 8;  // read at a time; to see whether there is metal at all
+constexpr double kLeastPixels = 200;             // of an object, else bumps would show a few pixels over and over
+constexpr double kLeastCovered = 0.25;           // of all directions: a box shows 3%, cans and balls 70% and more
+constexpr float kMetal = 0.9f, kBlack = 1e-3f;   // of the metallic pass, of an albedo
+constexpr std::uint32_t kRows = 64, kStep = 16;  // read at a time; from one row that is looked at for metal to the next
 
 /// What an object shows of directions, as sums at the vertices around each of its pixels.
 class Sums {
@@ -46,7 +47,7 @@ public:
         return static_cast<double>(shown) / static_cast<double>(vertices_.size());
     }
 
-    /// Means where something is shown; elsewhere what is shown nearest.
+    /// Means where something is shown; elsewhere what is shown nearest. Nothing where nothing is.
     std::vector<Vec3> picture() {
         join_folds();
         std::vector<Vec3> out(vertices_.size());
@@ -55,6 +56,7 @@ public:
             known[k] = vertices_[k].weight > kLeastWeight;
             if (known[k]) out[k] = scaled(vertices_[k].sum, 1 / vertices_[k].weight);
         }
+        if (std::ranges::find(known, true) == known.end()) return {};
         while (std::ranges::find(known, false) != known.end()) spread(out, known);
         return out;
     }
@@ -145,7 +147,8 @@ public:
           rays_(rays),
           width_(reader.size().width) {}
 
-    bool is_told() const { return rows_.has("metallic") || rows_.has("albedo.r"); }
+    /// Without a pass of its own metal is what is black, which other things are, too: of those only objects count.
+    bool is_told() const { return rows_.has("metallic") || (rows_.has("albedo.r") && rows_.has("object")); }
     void read(std::uint32_t first, std::uint32_t end) { first_ = first, height_ = end - first, rows_.read(first, end); }
     bool any() const {
         for (std::size_t i = 0; i < height_ * width_; ++i)
@@ -205,7 +208,7 @@ std::vector<float> chosen(const std::map<float, Sums>& objects, const MetalPictu
     for (const auto& [label, sums] : objects)
         if (sums.pixels() >= kLeastPixels && sums.covered() >= kLeastCovered) labels.push_back(label);
     std::ranges::stable_sort(labels, std::greater{}, [&](float label) { return objects.at(label).pixels(); });
-    if (labels.size() > kMostMetals) labels.resize(kMostMetals);
+    if (labels.size() > WR_METALS) labels.resize(WR_METALS);
     return labels;
 }
 
@@ -226,9 +229,8 @@ MetalPictures metals_of_frame(const Scene& scene, int frame, const MetalPictures
     if (!metal.is_told()) return before;
     const std::uint32_t height = reader.size().height;
     bool any = before != nullptr;
-    for (std::uint32_t k = 0; k < kProbes && !any; ++k) {
-        const std::uint32_t first = static_cast<std::uint32_t>(std::uint64_t{height} * k / kProbes);
-        metal.read(first, std::min(first + kProbe, height));
+    for (std::uint32_t row = 0; row < height && !any; row += kStep) {
+        metal.read(row, row + 1);
         any = metal.any();
     }
     if (!any) return before;
@@ -240,11 +242,9 @@ MetalPictures metals_of_frame(const Scene& scene, int frame, const MetalPictures
     auto pictures = std::make_shared<std::vector<MetalPicture>>();
     for (const float label : chosen(objects, before)) {
         const auto found = objects.find(label);
-        MetalPicture picture{.object = io::object_number(label)};
-        if (found != objects.end())
-            picture.seen = found->second.picture();
-        else
-            picture.seen = (*before)[pictures->size()].seen;
+        MetalPicture picture{.object = io::object_number(label), .seen = {}};
+        if (found != objects.end() && found->second.pixels() >= kLeastPixels) picture.seen = found->second.picture();
+        if (picture.seen.empty()) picture.seen = (*before)[pictures->size()].seen;  // hidden, or too small to tell
         pictures->push_back(std::move(picture));
     }
     return pictures;

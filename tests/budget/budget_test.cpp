@@ -189,9 +189,12 @@ TEST(Budget, CountsWhatHalfFloatsRoundOff) {
 
 TEST(Budget, DamagedTablesAreNamed) {
     const TempFolder folder;
-    for (const char* text : {"", "{", "[]", "{\"devices\": [{}]}",
-                             "{\"devices\": [{\"class\": \"\", \"device\": \"\", \"driver\": \"\", \"kinds\": "
-                             "{\"noise\": {\"exact\": {\"ns\": -1, \"p99\": 0, \"max\": 0}}}}]}"}) {
+    for (const char* text :
+         {"", "{", "[]", "{\"devices\": [{}]}",
+          "{\"devices\": [{\"class\": \"\", \"device\": \"\", \"driver\": \"\", \"kinds\": "
+          "{\"noise\": {\"exact\": {\"ns\": -1, \"p99\": 0, \"max\": 0}}}}]}",
+          R"({"devices": [{"class": "", "device": "", "driver": "", "kinds": {}, "areas": {"noise": )"
+          R"([{"taps": 1e30, "ns": 1, "median": 0, "p99": 0}]}}]})"}) {
         write_text(folder / "costs.json", text);
         try {
             read_costs(folder / "costs.json");

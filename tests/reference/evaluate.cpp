@@ -178,13 +178,19 @@ Vec<T> SceneEvaluator<T>::relit(std::size_t i, const Evaluated<T>& e) const {
         };
         return any(&Light::picture) ? Shows::both : any(&Light::specular) ? Shows::specular : Shows::diffuse;
     };
+    const auto facing_of = [&](const std::string& picture) {
+        Vec<T> sum;
+        for (const Light& l : lighting.lights)
+            if (l.picture == picture || l.diffuse == picture || l.specular == picture) sum = sum + facing(l, world);
+        return sum.x + sum.y + sum.z;
+    };
     const auto part = [&](const std::string& picture) {
         return Part{picture.empty() ? Vec<T>{} : rgb("channel:" + picture, i, "RGB"),
                     lit_by(picture, lighting, e.normal, e.base_normal, e.view, world, surface),
                     lit_by(picture, lighting, e.base_normal, e.base_normal, e.view, world, surface),
-                    picture.empty() ? Shows::both : shows(picture)};
+                    picture.empty() ? Shows::both : shows(picture), facing_of(picture)};
     };
-    const Lighting around = with_faint_light(lighting);
+    const Lighting around = with_faint_light(lighting, world);
     Relit<T> relit{beauty,
                    {},
                    part(""),

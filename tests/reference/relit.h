@@ -44,17 +44,33 @@ std::pair<std::vector<T>, T> visibilities(Vec<T> shown, Vec<T> sky, const std::v
     return {reached, sum(all) > 0 ? bound * given / sum(all) : T(0)};
 }
 
-/// Whether a scene tells of no sky. What no light explains then comes from all around, as a fiftieth of what a white
-/// surface shows of the lights, suns or at 1 m.
+/// What a white surface at a point shows of a light that it faces, whatever its cone.
+template <class T>
+Vec<T> facing(const Light& light, Vec<T> world) {
+    T strength = T(light.intensity) / std::numbers::pi_v<T>;
+    if (light.kind != LightKind::sun) {
+        const Vec<T> gap = from_array<T>(light.position) - world;
+        const T square = dot(gap, gap), part = light.range ? square / T(*light.range * *light.range) : T(0);
+        const T left = std::max(T(1) - part * part, T(0));
+        strength = strength / square * left * left;
+    }
+    return from_array<T>(light.color) * strength;
+}
+
+/// Whether a scene tells of no sky. What no light explains then comes from all around, as a tenth of what a white
+/// surface shows of the lights that it faces.
 inline bool is_dark(const Lighting& lighting) {
     const auto none = [](const Light& l) { return l.kind == LightKind::sky; };
     return std::ranges::none_of(lighting.lights, none) && lighting.ambient == Vec3{};
 }
-inline Lighting with_faint_light(Lighting lighting) {
+template <class T>
+Lighting with_faint_light(Lighting lighting, Vec<T> world) {
     if (!is_dark(lighting)) return lighting;
-    for (const Light& light : lighting.lights)
-        for (std::size_t c = 0; c < 3; ++c)
-            lighting.ambient[c] += light.color[c] * light.intensity / (50 * std::numbers::pi);
+    for (const Light& light : lighting.lights) {
+        const Vec<T> given = facing(light, world) / T(10);
+        lighting.ambient[0] += double(given.x), lighting.ambient[1] += double(given.y);
+        lighting.ambient[2] += double(given.z);
+    }
     return lighting;
 }
 
@@ -66,6 +82,7 @@ struct Relit {
     struct Part {
         Vec<T> picture, now, old;
         Shows shows = Shows::both;
+        T facing = 0;  ///< the sum of what a white surface shows of these lights where it faces them
     };
     Vec<T> beauty;
     std::vector<Part> own;      ///< lights with pictures
@@ -75,10 +92,10 @@ struct Relit {
     /// known apart; `others` is what is diffuse then.
     std::optional<Part> mirrored{};
 
-    /// Every light's own picture times its ratio, in which a fiftieth of the sky stands for what surfaces send on of
-    /// it; of the rest, what lights without pictures can give where the picture shows that they reach it times theirs,
-    /// and all else times the sky's. What is specular of the rest and known apart: what the lights can give times
-    /// theirs, and all else as it is.
+    /// Every light's own picture times its ratio, in which as much of the sky as is .007 of the light stands for what
+    /// surfaces send on of it; of the rest, what lights without pictures can give where the picture shows that they
+    /// reach it times theirs, and all else times the sky's. What is specular of the rest and known apart: what the
+    /// lights can give times theirs, and all else as it is.
     Vec<T> picture(const Lighting& lighting, Vec<T> albedo) const {
         const auto each = [](auto&& of) { return Vec<T>{of(&Vec<T>::x), of(&Vec<T>::y), of(&Vec<T>::z)}; };
         const auto times_ratio = [&](Vec<T> a, const Part& part) {
@@ -90,7 +107,8 @@ struct Relit {
         for (const Part& part : own) {
             const Vec<T> shown = each([&](auto c) { return std::max(part.picture.*c, T(0)); });
             rest = rest - shown;
-            result = result + times_ratio(shown, {{}, part.now + sky_now / T(50), part.old + sky_old / T(50)});
+            const T bounce = T(7) / 1000 * part.facing / (sky.old.x + sky.old.y + sky.old.z);
+            result = result + times_ratio(shown, {{}, part.now + sky_now * bounce, part.old + sky_old * bounce});
         }
         // What lights' pictures show beyond the beauty is not taken from it twice.
         const Vec<T> over = each([&](auto c) { return std::min(rest.*c, T(0)); });
