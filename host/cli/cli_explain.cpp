@@ -134,7 +134,8 @@ nlohmann::json bins_json(const std::optional<BinReport>& bins) {
             {"inherited", bins->inherited}};
 }
 
-void print_json(const Plan& plan, const Scene& scene, double operations, const OnDevice& on, const std::vector<VolumeReport>& volumes) {
+void print_json(const Plan& plan, const Scene& scene, double operations, const OnDevice& on,
+                const std::vector<VolumeReport>& volumes) {
     const auto& [device, budget, bins] = on;
     nlohmann::json sections = nlohmann::json::array();
     for (const SectionSummary& section : plan.sections)

@@ -17,7 +17,8 @@ struct BandStages {
 /// The threads are not those of a pool, as stages wait for devices. Intel's OpenCL runs kernels on oneTBB's threads,
 /// of which a process has one less than cores: stages on those waited for kernels that waited for their threads.
 ///
-/// Where there is no thread to be had, one stage after the other takes a band on the caller's. `in_flight` is 1 at least.
+/// Where there is no thread to be had, one stage after the other takes a band on the caller's. `in_flight` is 1 at
+/// least.
 ///
 /// Errors: throws what a stage threw first, once the others have finished their bands.
 void run_bands(std::uint32_t bands, std::uint32_t in_flight, const BandStages& stages);
