@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "budget/cost_table.h"
 #include "layers/kinds.h"
 

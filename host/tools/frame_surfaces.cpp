@@ -11,6 +11,7 @@
 
 #include "base/imath.h"
 #include "base/vec.h"
+#include "resources/octahedral_map.h"
 #include "run/open_frame.h"
 #include "tools/frame_rows.h"
 #include "wrinkle/error.h"
@@ -26,14 +27,9 @@ constexpr float kMetallic = 0.1f;
 
 /// The cell of a unit normal on the octahedron, unfolded into a square.
 int cell_of(const Vec3& n) {
-    const double sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
-    double x = n[0] / sum, y = n[1] / sum;
-    if (n[2] < 0) {
-        const double fold = std::copysign(1 - std::abs(y), x);
-        y = std::copysign(1 - std::abs(x), y), x = fold;
-    }
-    const auto place = [](double v) { return std::clamp(static_cast<int>((v + 1) / 2 * kCells), 0, kCells - 1); };
-    return place(y) * kCells + place(x);
+    const auto cell = [](double v) { return std::clamp(static_cast<int>(v * kCells), 0, kCells - 1); };
+    const auto [s, t] = OctahedralMap::place(n);
+    return cell(t) * kCells + cell(s);
 }
 
 /// Draws as many from every cell, each surface of a cell with the same chance, by a seed of its own.

@@ -8,6 +8,7 @@
 
 #include "base/vec.h"
 #include "io/object_ids.h"
+#include "resources/octahedral_map.h"
 #include "run/open_frame.h"
 #include "tools/frame_rows.h"
 
@@ -74,13 +75,8 @@ private:
 
     /// A direction's place on the octahedron, in cells.
     static std::array<double, 2> place(const Vec3& d) {
-        const double sum = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
-        double x = d[0] / sum, y = d[1] / sum;
-        if (d[2] < 0) {
-            const double fold = std::copysign(1 - std::abs(y), x);
-            y = std::copysign(1 - std::abs(x), y), x = fold;
-        }
-        return {std::clamp((x + 1) / 2, 0.0, 1.0) * kCells, std::clamp((y + 1) / 2, 0.0, 1.0) * kCells};
+        const auto [s, t] = OctahedralMap::place(d);
+        return {std::clamp(s, 0.0, 1.0) * kCells, std::clamp(t, 0.0, 1.0) * kCells};
     }
 
     /// The other vertex that a vertex of the rim meets where the square is folded.
