@@ -102,9 +102,22 @@ std::string emit(LayerText& at) {
     }
     if (!facing) at.section.reads.insert("n");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
+    // Which boxes a pixel's area may cross is found once for all of its points: most cross none.
+    std::string rows = fmt::format("uint i = {}; i < {}; ++i", first, plan.decals.size()), crossed;
+    if (at.over_area() && at.emitter.options.skip && at.emitter.scene.filter.taps > 1) {
+        const std::string crosses = fmt::format("crosses_{}", first);
+        at.declared += fmt::format("        uint {} = 0;\n", crosses);
+        at.prepared += fmt::format(
+            "        for (uint i = 0; i < {0}; ++i)\n"
+            "            {1} |= (uint)(wr_any(valid & wr_may_cross_box(decals + {2} + i, p, taps.along, shares.begin,\n"
+            "                fma(shares.length, taps.count, shares.begin))) ? 1 : 0) << i;\n",
+            at.layers.size(), crosses, first);
+        rows = fmt::format("uint i = {}, rest = {}; rest != 0; ++i, rest >>= 1", first, crosses);
+        crossed = "            if ((rest & 1) == 0) continue;\n";
+    }
     return fmt::format(
-        R"(        for (uint i = {}; i < {}; ++i) {{
-            global const wr_projector *decal = decals + i;
+        R"(        for ({}) {{
+{}            global const wr_projector *decal = decals + i;
             wr_projected in = wr_project_box(decal, p);
 {}            wr_real weight = m * wr_projector_falloff(decal, in){};
             wr_texture t = wr_texture_at(texels, textures, (uint)decal->texture);
@@ -113,7 +126,7 @@ std::string emit(LayerText& at) {
             {}
         }}
 )",
-        first, plan.decals.size(),
+        rows, crossed,
         at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
         facing ? "" : " * wr_projector_angle_fade(decal, n)",
         at.lod("wr_projector_step(decal, in, dp_dx)", "wr_projector_step(decal, in, dp_dy)"),
