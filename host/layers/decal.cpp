@@ -126,8 +126,7 @@ std::string emit(LayerText& at) {
             {}
         }}
 )",
-        rows, crossed,
-        at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
+        rows, crossed, at.emitter.options.skip ? "            if (!wr_any(active & in.inside)) continue;\n" : "",
         facing ? "" : " * wr_projector_angle_fade(decal, n)",
         at.lod("wr_projector_step(decal, in, dp_dx)", "wr_projector_step(decal, in, dp_dy)"),
         sample_text(decal_of(at.layer).texture, "wr_projector_st(in)", "lod", "weight != 0"),

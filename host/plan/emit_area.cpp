@@ -52,7 +52,7 @@ constexpr Sum kSums[] = {{"g", "sum"}, {"dh_dp", "sum_space"}};
 /// Text that declares the sums for the covariance of slopes. Slopes are taken relative to that of the first point, so
 /// that a steep mean cancels no digits.
 constexpr const char* kSpreadSums =
-    "        wr_vec3 right = wr_normalize(dp_dx), down = wr_cross_fast(right, n), products = wr_zero3();\n"
+    "        wr_vec3 right = wr_right_on_surface(n, dp_dx), down = wr_cross_fast(right, n), products = wr_zero3();\n"
     "        wr_vec2 first_slope = {0, 0}, mean_slope = {0, 0};\n";
 
 /// Text that turns those sums into the covariance.
@@ -64,7 +64,6 @@ constexpr const char* kSpreadEnd =
 
 /// Text that adds the slopes of a point to the sums for their covariance.
 constexpr const char* kAddSpread =
-    "            wr_vec2 slope = wr_v2(wr_dot(surface, right), wr_dot(surface, down));\n"
     "            if (tap == 0) first_slope = slope;\n"
     "            slope = wr_select(on, wr_sub(slope, first_slope), wr_v2((wr_real)(0), (wr_real)(0)));\n"
     "            mean_slope = wr_v2(fma(slope.x, share, mean_slope.x), fma(slope.y, share, mean_slope.y));\n"
@@ -75,31 +74,26 @@ constexpr const char* kAddSpread =
 /// or two at each point of several, which take turns.
 constexpr const char* kSides =
     "            const wr_vec3 apart = wr_spread_to_light(finer);\n"
+    "            const wr_sides around = wr_sides_of(apart);\n"
     "            const wr_mask varied = on & (apart.x + apart.z > 0), alone = taps.count < 2;\n"
     "            const int sides = wr_any(varied & alone) ? 4 : wr_any(varied) ? 2 : 1;\n"
     "            const wr_real part = share / (wr_real)((WR_SCALAR)sides);\n"
     "#pragma nounroll\n"
     "            for (int side = 0; side < sides; ++side) {\n"
-    "            const wr_vec2 off = wr_select(alone, wr_side_of_spread(apart, side),\n"
-    "                                          wr_side_of_spread(apart, 2 * (tap & 1) + (side & 1)));\n"
-    "            wr_vec3 bent = wr_resolve(n, wr_fma(right, off.x, wr_fma(down, off.y, surface)));\n";
-/// The same where no layer tells how its slopes vary.
-constexpr const char* kOneSide =
-    "            {\n"
-    "            const wr_real part = share;\n"
-    "            wr_vec3 bent = wr_resolve(n, surface);\n";
+    "            const wr_vec2 off = wr_side(around, alone ? (wr_real)((WR_SCALAR)side)\n"
+    "                                                      : (wr_real)((WR_SCALAR)(2 * (tap & 1) + (side & 1))));\n"
+    "            wr_vec3 bent = wr_resolve_slopes(n, right, down, wr_add(slope, off));\n"
+    "            bent = wr_select(wr_sound(bent), bent, n);\n";
 
 /// Text that adds the light on a point to the sums.
-std::string add_light_text(const Emitter& emitter, bool spread) {
-    const char* const roughness =
-        spread ? "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))" : "roughness";
-    std::string text = spread ? kSides : kOneSide;
-    text += "            bent = wr_select(wr_sound(bent), bent, n);\n";
+std::string add_light_text(const Emitter& emitter) {
+    std::string text = kSides;
     for (const LitTerm& term : lit_terms(emitter))
         text += fmt::format(
             "            wr_vec3 {0}_here = {1};\n"
             "            {0}_sum = wr_select(on, wr_fma({0}_here, part, {0}_sum), {0}_sum);\n",
-            term.value, term.of("centre", "bent", roughness));
+            term.value,
+            term.of("centre", "bent", "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))"));
     return text + "            }\n";
 }
 
@@ -204,11 +198,13 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
         if (area.writes.contains(sum.value))
             text +=
                 fmt::format("            {0} = wr_select(on, wr_fma({1}, share, {0}), {0});\n", sum.name, sum.value);
-    if (use.spread || use.lights)
-        text += "            wr_vec3 surface = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n";
+    // The axes are orthonormal on the surface, so what a gradient in space has on them is its projection's.
+    if (use.spread)
+        text += fmt::format("            wr_vec2 slope = wr_on_axes({}, right, down);\n",
+                            use.space ? "wr_add(g, dh_dp)" : "g");
     // Here `finer` still holds only how slopes vary within one point's share of the area, and that alone spreads the
     // light on the point; how they vary from point to point is added below.
-    if (use.lights) text += add_light_text(emitter, use.spread);
+    if (use.lights) text += add_light_text(emitter);
     if (use.spread) text += kAddSpread;
     text += "        }\n        }\n";
     for (const Sum& sum : kSums)

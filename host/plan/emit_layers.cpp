@@ -17,8 +17,8 @@ constexpr std::size_t kMostTogether = 32;  // a bit of an unsigned number for ea
 std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first) {
     const LayerKind& kind = kind_of(kinds, layers[first]);
     std::size_t count = 1;
-    while (kind.joins && count < kMostTogether && first + count < layers.size() && &kind_of(kinds, layers[first + count]) == &kind &&
-           kind.joins(layers[first], layers[first + count]))
+    while (kind.joins && count < kMostTogether && first + count < layers.size() &&
+           &kind_of(kinds, layers[first + count]) == &kind && kind.joins(layers[first], layers[first + count]))
         ++count;
     return count;
 }

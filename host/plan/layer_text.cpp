@@ -89,14 +89,12 @@ std::string LayerText::textured(const TextureUse& use, const char* declared) {
     if (texel_kind(use) != TexelKind::vector && tells_spread()) {
         const char* wrap = use.wrap == Wrap::clamp ? "wr_clamp" : "wr_repeat";
         const std::string share = once("wr_real", "texel", "wr_texel_share(t, c.dx, c.dy)");
-        section.operations += 61;
+        section.operations += 20;
         loses = true;
         text += fmt::format(
-            "        wr_texture moments = wr_texture_at(texels, textures, {0});\n"
-            "        wr_vec3 lost = wr_scale(wr_lost_spread(wr_texture_sample3(moments, {1}(c.st.x), {1}(c.st.y), "
-            "{2}), "
-            "slope), {3});\n",
-            emitter.texture(use, TexelKind::moments), wrap, level, share);
+            "        wr_vec3 lost = wr_scale(wr_texture_nearest3(wr_texture_at(texels, textures, {0}), {1}(c.st.x), "
+            "{1}(c.st.y), {2}), {3});\n",
+            emitter.texture(use, TexelKind::lost_slopes), wrap, level, share);
     }
     section.reads.insert({"n", "dp_dx", "dp_dy", "g"});
     section.writes.insert("g");

@@ -73,13 +73,18 @@ bool lights_points(const Emitter& emitter, const std::vector<Stage>& stages) {
 /// The sections of a stage, those joined that are consecutive and vary over pixels' areas.
 std::vector<Section> join_areas(Emitter& emitter, Stage& stage, AreaUse& use) {
     std::vector<Section> joined;
+    use.space = false;
     for (std::size_t i = 0; i < stage.layers.size();) {
+        use.space |= stage.layers[i].writes.contains("dh_dp");
         if (!stage.layers[i].area) {
             joined.push_back(std::move(stage.layers[i++]));
             continue;
         }
         std::vector<Section> together;
-        for (; i < stage.layers.size() && stage.layers[i].area; ++i) together.push_back(std::move(stage.layers[i]));
+        for (; i < stage.layers.size() && stage.layers[i].area; ++i) {
+            use.space |= stage.layers[i].writes.contains("dh_dp");
+            together.push_back(std::move(stage.layers[i]));
+        }
         joined.push_back(emit_area(emitter, together, use));
         use.first = false;
     }

@@ -96,7 +96,7 @@ using PlannedEyePlace = std::function<EyePlace(const NumberSource&)>;
 /// A texture as kernels sample it.
 enum class TexelKind {
     slope,
-    moments,  ///< the squares and the product of slopes
+    lost_slopes,  ///< the covariance of the slopes that samples of `slope` average
     height,
     mask,
     vector,

@@ -131,8 +131,10 @@ Section emit_resolve(Emitter& emitter, const StageEnd& stage);
 /// What a section over pixels' areas computes beside the mean gradients.
 struct AreaUse {
     bool spread = false;  ///< the covariance of the slopes
-    bool lights = false;  ///< the light on every point; a later such section lights anew the pixels that it bends
+    bool lights = false;  ///< the light on every point, which needs that covariance; a later such section lights anew
+                          ///< the pixels that it bends
     bool first = true;    ///< no such section comes before
+    bool space = false;   ///< a layer of the stage, of this section or before it, adds to dh_dp
 };
 /// Joins consecutive sections into one that evaluates them at several points of a pixel's area, and sets g and dh_dp to
 /// the means.

@@ -9,7 +9,9 @@
 #include "base/limits.h"
 #include "io/texture_doubts.h"
 #include "io/volume_file.h"
+#include "resources/lost_slopes.h"
 #include "resources/sky_levels.h"
+#include "resources/texel_wrap.h"
 #include "resources/volume_heap.h"
 #include "wrinkle/error.h"
 
@@ -18,10 +20,6 @@
 namespace wrinkle {
 
 namespace {
-
-int wrapped(int i, int size, Wrap wrap) {
-    return wrap == Wrap::clamp ? std::clamp(i, 0, size - 1) : ((i % size) + size) % size;
-}
 
 /// The next coarser level, half as many texels each way: every texel is the mean over the area that it covers. Where
 /// the finer level has an odd number of them, a texel covers two and a part of a third.
@@ -133,29 +131,17 @@ void append(TextureHeap& heap, const Image& level, Wrap wrap) {
         }
 }
 
-/// The squares of two slopes and their product. Their means give the covariance of the slopes that a level has
-/// averaged.
-Image products(const Image& slopes) {
-    Image out{slopes.width, slopes.height, 3, {}};
-    out.texels.reserve(slopes.texels.size() / 2 * 3);
-    for (std::size_t i = 0; i + 2 <= slopes.texels.size(); i += 2) {
-        const float s = slopes.texels[i], t = slopes.texels[i + 1];
-        out.texels.insert(out.texels.end(), {s * s, s * t, t * t});
-    }
-    return out;
-}
-
 /// The finest level, of which the coarser ones are means.
 Image finest_level(const Image& image, const PlannedTexture& planned) {
     const TextureUse& use = planned.use;
-    const bool slopes = planned.kind == TexelKind::slope || planned.kind == TexelKind::moments;
+    const bool slopes = planned.kind == TexelKind::slope || planned.kind == TexelKind::lost_slopes;
     Image level = is_whole(planned) ? image : cropped(image, planned.region);
     if (use.content == Content::normal) level = slopes_of_normals(level, use.y_down);
     if (use.content == Content::slope && use.y_down) level = turned_down(std::move(level));
     if (slopes && use.content == Content::height) level = slopes_of_heights(level, use.wrap);
-    if (slopes && level.channels == 5)  // the file brings its own products
-        return planned.kind == TexelKind::moments ? channels_of(level, 2, 5) : channels_of(level, 0, 2);
-    return planned.kind == TexelKind::moments ? products(level) : level;
+    const bool products = slopes && level.channels == 5;  // the file brings its own
+    if (planned.kind == TexelKind::lost_slopes) return products ? level : with_products(level);
+    return products ? channels_of(level, 0, 2) : level;
 }
 
 }  // namespace
@@ -173,7 +159,8 @@ void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& pl
     std::uint32_t count = 0;
     for (; count < WR_MAX_LEVELS; ++count) {
         heap.table[words + WR_TEXTURE_OFFSETS + count] = static_cast<std::uint32_t>(heap.texels.size());
-        append(heap, level, planned.use.wrap);
+        append(heap, planned.kind == TexelKind::lost_slopes ? lost_slopes(level, planned.use.wrap) : level,
+               planned.use.wrap);
         if (level.width == 1 && level.height == 1) {
             ++count;
             break;

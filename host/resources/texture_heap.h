@@ -22,9 +22,9 @@ struct TextureHeap {
 constexpr std::size_t kTexelsAfterTheLast = 4;
 
 /// Adds one image as the texels that the plan wants: heights and masks as they are; heights for the smooth upscale as
-/// slopes by the Sobel operator [Mik20 eq. 20, 21]; tangent normals as slopes [listing 2]; slopes as they are, or their
-/// squares and product; object-space normals as vectors of four floats. Every texel of a coarser level is a mean of
-/// texels of the finest one.
+/// slopes by the Sobel operator [Mik20 eq. 20, 21]; tangent normals as slopes [listing 2]; slopes as they are, or what
+/// samples of them lose (lost_slopes.h); object-space normals as vectors of four floats. Every texel of a coarser level
+/// is a mean of texels of the finest one.
 void add_texture(TextureHeap& heap, const Image& image, const PlannedTexture& planned);
 
 /// Loads all textures of a plan. Throws Error for files that cannot be used, naming the layer that does.

@@ -101,13 +101,36 @@ TEST(Area, SidesHaveTheirCovariance) {
           "wr_vec3 got = wr_zero3();\n"
           "wr_vec2 mean = wr_v2((wr_real)(0), (wr_real)(0));\n"
           "for (int i = 0; i < 4; ++i) {\n"
-          "    wr_vec2 s = wr_side_of_spread(spread, i);\n"
+          "    wr_vec2 s = wr_side(wr_sides_of(spread), (wr_real)((WR_SCALAR)i));\n"
           "    mean = wr_add(mean, s);\n"
           "    got = wr_fma(wr_v3(s.x * s.x, s.x * s.y, s.y * s.y), (wr_real)(0.25f), got);\n"
           "}\n"
           "wr_vec3 off = wr_v3(mean.x, mean.y, (wr_real)(0));",
           {{"mean", xyz("off"), ErrorMeasure::absolute, 0, 0, 0},
            {"spread", xyz("got"), ErrorMeasure::relative, 1e-6, 1e-6, 1e-12}});
+}
+
+TEST(Area, TheAxisToTheRightIsOnTheSurfaceWhateverItsStep) {
+    cases::Cases c{.name = "axes to the right"};
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+        cases::Random random(seed);
+        const V n = cases::Random::rounded(
+            seed <= 6 ? V{seed / 2 == 0 ? 1.0L : 0, seed / 2 == 1 ? 1.0L : 0, seed / 2 > 1 ? -1.0L : 0}
+                      : random.unit());
+        const bool none = seed % 2 == 0;
+        const V step = cases::Random::rounded(cross(n, random.unit()) * random.magnitude(-30, 6));
+        c.add("axis, seed " + std::to_string(seed), none);
+        c.in("n", n), c.in("dp_dx", none ? V{0, 0, 0} : step);
+        c.out("size", real{1}), c.out("off", real{0});
+        c.out("along", real{1});
+    }
+    check(c,
+          "wr_vec3 right = wr_right_on_surface(n, dp_dx);\n"
+          "wr_real size = sqrt(wr_dot(right, right)), off = wr_dot(n, right);\n"
+          "wr_real along = wr_nonzero(dp_dx) ? wr_dot(right, wr_normalize(dp_dx)) : (wr_real)(1);",
+          {{"size", {"size"}, ErrorMeasure::absolute, 3e-7, 3e-7, 1e-12},
+           {"off", {"off"}, ErrorMeasure::absolute, 1e-6, 1e-6, 1e-6},
+           {"along", {"along"}, ErrorMeasure::absolute, 3e-7, 3e-7, 1e-12}});
 }
 
 /// Differences of means may leave an xy that no covariance with such an xx has.
@@ -120,7 +143,7 @@ TEST(Area, SidesOfWhatIsNoCovarianceStayWithinTheLargerDeviation) {
     check(c,
           "wr_real beyond = 0, most = sqrt(2 * fmax(spread.x, spread.z)) * (wr_real)(1.000001f);\n"
           "for (int i = 0; i < 4; ++i) {\n"
-          "    wr_vec2 s = wr_side_of_spread(spread, i);\n"
+          "    wr_vec2 s = wr_side(wr_sides_of(spread), (wr_real)((WR_SCALAR)i));\n"
           "    beyond = fmax(beyond, fmax(fabs(s.x), fabs(s.y)) - most);\n"
           "}\n",
           {{"beyond", {"beyond"}, ErrorMeasure::absolute, 0, 0, 0}});

@@ -50,6 +50,28 @@ TEST(Texture, SamplesAreTrilinear) {
            {"three", xyz("three"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
 }
 
+TEST(Texture, NearestTexels) {
+    Picture picture;
+    cases::Cases& c = picture.cases;
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        cases::Random random(seed);
+        const int last = static_cast<int>(picture.pyramid.levels.size()) - 1, level = random.below(last + 1);
+        const reference::Level<real>& texels = picture.pyramid.levels[static_cast<std::size_t>(level)];
+        const int x = random.below(texels.width), y = random.below(texels.height);
+        // Anywhere in the texel but at its rim.
+        const V2 at{(x + random.uniform(0.01L, 0.99L)) / texels.width,
+                    (y + random.uniform(0.01L, 0.99L)) / texels.height};
+        const bool beyond = level == last && seed % 2 == 0;
+        c.add("texel, seed " + std::to_string(seed), beyond);
+        c.in("st", V2{static_cast<float>(at.x), static_cast<float>(at.y)});
+        c.in("lod", beyond ? random.uniform(4, 40) : level + random.uniform(-0.45L, 0.45L));
+        const auto channel = [&](int k) { return texels.at(k, x, y, cases::Address::repeat); };
+        c.out("texel", V{channel(0), channel(1), channel(2)});
+    }
+    check(c, "wr_vec3 texel = wr_texture_nearest3(wr_texture_at(texels, textures, 2), st.x, st.y, lod);",
+          {{"texel", xyz("texel"), ErrorMeasure::absolute, 1e-7, 1e-7, 1e-7}});
+}
+
 TEST(Texture, LevelsLieWithinThePyramidForAnyDerivative) {
     Picture picture;
     cases::Cases& c = picture.cases;

@@ -32,7 +32,18 @@ TEST(PlanOfDecals, GroupsDecalsThatShareMaskAndSampling) {
     EXPECT_EQ(textures,
               (std::vector<std::uint32_t>{0, 1, 0, 2}));  // a file used as heights and as slopes is two textures
     EXPECT_EQ(plan.textures.size(), 3u);
-    EXPECT_TRUE(mentions(plan, "i = 0; i < 2") && mentions(plan, "i = 2; i < 3") && mentions(plan, "i = 3; i < 4"));
+    EXPECT_TRUE(mentions(plan, "i = 0, rest = crosses_0;") && mentions(plan, "i = 2, rest = crosses_2;") &&
+                mentions(plan, "i = 3, rest = crosses_3;"));
+}
+
+TEST(PlanOfDecals, AnAreaAsksOnceWhichOfThemItMayCross) {
+    const std::vector<Layer> many(70, layer(decal(), "a"));
+    const Plan plan = make_plan(scene_of(many), everything());
+    EXPECT_TRUE(mentions(plan, "i = 0, rest = crosses_0;") && mentions(plan, "i = 32, rest = crosses_32;") &&
+                mentions(plan, "i = 64, rest = crosses_64;"));
+    Scene one = scene_of(many);
+    one.filter.taps = 1;
+    EXPECT_FALSE(mentions(make_plan(one, everything()), "crosses_"));
 }
 
 TEST(PlanOfDecals, TablesOfDecalsShareAProgramWhateverTheirLength) {
