@@ -85,10 +85,10 @@ std::string neighbours_text(Emitter& emitter, const GeometryText& geometry, Sect
     return text;
 }
 
-/// Sets dn_dx and dn_dy. Neighbours come with a uv that is not used here; the compiler drops its loads.
+/// Sets dn_dx and dn_dy. Under a condition: else GPUs hold all neighbours up to the layer that reads them.
 std::string emit_turning(Emitter& emitter, const GeometryText& geometry, Section& section) {
     section.operations += 200;
-    return "        {\n" +
+    return "        if (wr_any(valid)) {\n" +
            neighbours_text(emitter, geometry, section, {"normal.x", "normal.x"}, "wr_v2((wr_real)(0), (wr_real)(0))",
                            "valid",
                            [](const char* axis, const std::string& before, const std::string& after) {

@@ -92,7 +92,7 @@ std::string LayerText::textured(const TextureUse& use, const char* declared) {
         section.operations += 20;
         loses = true;
         text += fmt::format(
-            "        wr_vec3 lost = wr_scale(wr_texture_nearest3(wr_texture_at(texels, textures, {0}), {1}(c.st.x), "
+            "        wr_vec3 lost = wr_scale(wr_lost_slopes(wr_texture_at(texels, textures, {0}), {1}(c.st.x), "
             "{1}(c.st.y), {2}), {3});\n",
             emitter.texture(use, TexelKind::lost_slopes), wrap, level, share);
     }

@@ -50,26 +50,42 @@ TEST(Texture, SamplesAreTrilinear) {
            {"three", xyz("three"), ErrorMeasure::absolute, 1e-5, 1e-5, 1e-7}});
 }
 
-TEST(Texture, NearestTexels) {
+TEST(Texture, LostSlopesAreThoseOfTexelsAndOfBlendsOfLevels) {
     Picture picture;
     cases::Cases& c = picture.cases;
+    const int last = static_cast<int>(picture.pyramid.levels.size()) - 1;
     for (unsigned seed = 1; seed <= 300; ++seed) {
         cases::Random random(seed);
-        const int last = static_cast<int>(picture.pyramid.levels.size()) - 1, level = random.below(last + 1);
-        const reference::Level<real>& texels = picture.pyramid.levels[static_cast<std::size_t>(level)];
-        const int x = random.below(texels.width), y = random.below(texels.height);
-        // Anywhere in the texel but at its rim.
-        const V2 at{(x + random.uniform(0.01L, 0.99L)) / texels.width,
-                    (y + random.uniform(0.01L, 0.99L)) / texels.height};
-        const bool beyond = level == last && seed % 2 == 0;
-        c.add("texel, seed " + std::to_string(seed), beyond);
-        c.in("st", V2{static_cast<float>(at.x), static_cast<float>(at.y)});
-        c.in("lod", beyond ? random.uniform(4, 40) : level + random.uniform(-0.45L, 0.45L));
-        const auto channel = [&](int k) { return texels.at(k, x, y, cases::Address::repeat); };
-        c.out("texel", V{channel(0), channel(1), channel(2)});
+        const bool beyond = seed % 5 == 0;
+        const real lod = beyond          ? random.uniform(last, 40)
+                         : seed % 2 == 0 ? random.below(last + 1)
+                                         : random.uniform(0, last);
+        const int fine = std::min(static_cast<int>(lod), last), coarse = std::min(fine + 1, last);
+        const real weight = beyond ? 0 : lod - fine;
+        // Anywhere but at the rims of texels, where rounding chooses.
+        V2 at;
+        const auto rim = [&](int level, real s, int size) {
+            const real x = s * (size >> level == 0 ? 1 : size >> level);
+            return std::abs(x - std::round(x)) < 1e-3L;
+        };
+        do at = {static_cast<float>(random.uniform(0, 1)), static_cast<float>(random.uniform(0, 1))};
+        while (rim(fine, at.x, 21) || rim(fine, at.y, 11) || rim(coarse, at.x, 21) || rim(coarse, at.y, 11));
+        c.add("lost slopes, seed " + std::to_string(seed), beyond);
+        c.in("st", at), c.in("lod", lod);
+        const auto texel = [&](int level, int k) {
+            const reference::Level<real>& texels = picture.pyramid.levels[static_cast<std::size_t>(level)];
+            return texels.at(k, static_cast<int>(at.x * texels.width), static_cast<int>(at.y * texels.height),
+                             cases::Address::repeat);
+        };
+        // The variance of a blend of two levels, whose difference has the variance that the coarser one lost.
+        const auto lost = [&](int k) {
+            const real between = texel(coarse, k) - texel(fine, k);
+            return texel(fine, k) * (1 - weight) + texel(coarse, k) * weight + weight * (1 - weight) * between;
+        };
+        c.out("lost", V{lost(0), lost(1), lost(2)});
     }
-    check(c, "wr_vec3 texel = wr_texture_nearest3(wr_texture_at(texels, textures, 2), st.x, st.y, lod);",
-          {{"texel", xyz("texel"), ErrorMeasure::absolute, 1e-7, 1e-7, 1e-7}});
+    check(c, "wr_vec3 lost = wr_lost_slopes(wr_texture_at(texels, textures, 2), st.x, st.y, lod);",
+          {{"lost", xyz("lost"), ErrorMeasure::absolute, 5e-6, 5e-6, 1e-6}});
 }
 
 TEST(Texture, LevelsLieWithinThePyramidForAnyDerivative) {
