@@ -87,13 +87,13 @@ constexpr const char* kSides =
 
 /// Text that adds the light on a point to the sums.
 std::string add_light_text(const Emitter& emitter) {
-    std::string text = kSides;
+    std::string text =
+        kSides + lit_point_text("bent", "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))");
     for (const LitTerm& term : lit_terms(emitter))
         text += fmt::format(
             "            wr_vec3 {0}_here = {1};\n"
             "            {0}_sum = wr_select(on, wr_fma({0}_here, part, {0}_sum), {0}_sum);\n",
-            term.value,
-            term.of("centre", "bent", "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))"));
+            term.value, term.of("bent", "lit_point.roughness"));
     return text + "            }\n";
 }
 

@@ -13,19 +13,16 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
     const auto with_table = [&](const std::string& lights, bool diffuse, bool specular) {
         if (!table || !(diffuse || specular)) return lights;
         return fmt::format(
-            "wr_add({}, wr_light_of_table(light_table, light_tile, valid, {{p}}, {{n}}, base, v, albedo, "
-            "{{roughness}}, "
-            "lighting->f0, {}, {}))",
-            lights, diffuse ? 1 : 0, specular ? 1 : 0);
+            "wr_add({}, wr_light_of_table(light_table, light_tile, valid, &lit_point, lighting->f0, {}, {}))", lights,
+            diffuse ? 1 : 0, specular ? 1 : 0);
     };
     const bool mirrors = mirrors_sky(emitter), apart = specular_apart(emitter);
     const auto with_gloss = [](const std::string& light) {
         return fmt::format("wr_add({}, {})", light, kMirroredSkies);
     };
     if (emitter.scene.lighting.relight != Relight::ratio) {
-        const std::string lit =
-            fmt::format("wr_light_surface({{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights{})",
-                        table ? ", light_table, light_tile, valid" : "");
+        const std::string lit = fmt::format("wr_light_surface(&lit_point, lighting, lights{})",
+                                            table ? ", light_table, light_tile, valid" : "");
         return {{"lit", mirrors ? with_gloss(lit) : lit}};
     }
     const std::string around = "wr_multiply3(faint, wr_sky(lighting, {n}, base))",
@@ -37,8 +34,7 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
     const std::size_t last = shared_numbers(emitter), alone = count_read_apart(emitter),
                       own = pictures_of(emitter.scene.lighting).size();
     for (std::size_t k = alone > 0 ? 1 : 0; k <= last + alone; ++k) {  // no picture shows lights of a table
-        const std::string given =
-            fmt::format("wr_light_group({}, {{p}}, {{n}}, base, v, albedo, {{roughness}}, lighting, lights)", k);
+        const std::string given = fmt::format("wr_light_group({}, &lit_point, lighting, lights)", k);
         const bool has_picture = k >= 1 && k <= own;
         terms.push_back(
             {lit_name(k), with_table(has_picture ? fmt::format("wr_fma({}, bounce_{}, {})", sent_on, k, given) : given,
@@ -47,8 +43,8 @@ std::vector<LitTerm> lit_terms(const Emitter& emitter) {
     return terms;
 }
 
-std::string LitTerm::of(const std::string& p, const std::string& n, const std::string& roughness) const {
-    return fmt::format(fmt::runtime(call), fmt::arg("p", p), fmt::arg("n", n), fmt::arg("roughness", roughness));
+std::string LitTerm::of(const std::string& n, const std::string& roughness) const {
+    return fmt::format(fmt::runtime(call), fmt::arg("n", n), fmt::arg("roughness", roughness));
 }
 
 namespace {
@@ -67,6 +63,13 @@ std::string roughness_now(Section& section, const std::vector<LitTerm>& terms, c
     return "wr_widened_roughness(roughness, spread)";
 }
 
+/// Text that sets all terms, of `lit_point` as it is.
+std::string values_text(const std::vector<LitTerm>& terms, const std::string& n, const std::string& roughness) {
+    std::string text;
+    for (const LitTerm& term : terms) text += fmt::format("        {} = {};\n", term.value, term.of(n, roughness));
+    return text;
+}
+
 }  // namespace
 
 Section emit_light_terms(Emitter& emitter, const LightEnd& end) {
@@ -82,10 +85,11 @@ Section emit_light_terms(Emitter& emitter, const LightEnd& end) {
         section.body += "        around = wr_select(valid, sky_on_base, wr_zero3());\n";
     }
     const std::string now = roughness_now(section, terms, end, lights_of_pixel(emitter));
+    if (!end.at_taps) section.body += lit_point_text("n", now) + values_text(terms, "n", now);
+    section.body += lit_point_text("base", "roughness");
     for (const LitTerm& term : terms) {
         const std::string old = old_name(term.value);
-        if (!end.at_taps) section.body += fmt::format("        {} = {};\n", term.value, term.of("p", "n", now));
-        section.body += fmt::format("        {} = {};\n", old, term.of("p", "base", "roughness"));
+        section.body += fmt::format("        {} = {};\n", old, term.of("base", "roughness"));
         for (const std::string& name : {term.value, old}) {
             section.writes.insert(name);
             section.body += fmt::format("        {0} = wr_select(valid, {0}, wr_zero3());\n", name);
@@ -109,7 +113,7 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     text = lit_surface_text(emitter, section);
     const std::string now = end.summed ? "" : roughness_now(section, terms, end, lights);
     if (!ratio) {
-        if (!end.at_taps) text += fmt::format("        lit = {};\n", terms.front().of("p", "n", now));
+        if (!end.at_taps) text += lit_point_text("n", now) + values_text(terms, "n", now);
         text += "        lit = wr_select(valid, lit, wr_zero3());\n";
         if (lighting.leave) {
             emitter.need("leave in [lighting]", {"beauty.r", "beauty.g", "beauty.b"});
@@ -119,14 +123,17 @@ Section emit_lighting(Emitter& emitter, const LightEnd& end) {
     }
     emitter.need("relight = \"ratio\"", {"beauty.r", "beauty.g", "beauty.b"});
     section.operations += 60 + (end.summed ? 0 : kLight * lights);
-    for (const LitTerm& term : terms) {
-        if (end.summed) {
-            section.reads.insert({term.value, old_name(term.value)});
-            continue;
+    if (end.summed) {
+        for (const LitTerm& term : terms) section.reads.insert({term.value, old_name(term.value)});
+    } else {
+        if (!end.at_taps) {
+            for (const LitTerm& term : terms)
+                if (term.value != "lit") text += fmt::format("        wr_vec3 {};\n", term.value);
+            text += lit_point_text("n", now) + values_text(terms, "n", now);
         }
-        if (!end.at_taps && term.value != "lit") text += fmt::format("        wr_vec3 {};\n", term.value);
-        if (!end.at_taps) text += fmt::format("        {} = {};\n", term.value, term.of("p", "n", now));
-        text += fmt::format("        wr_vec3 {} = {};\n", old_name(term.value), term.of("p", "base", "roughness"));
+        text += lit_point_text("base", "roughness");
+        for (const LitTerm& term : terms)
+            text += fmt::format("        wr_vec3 {} = {};\n", old_name(term.value), term.of("base", "roughness"));
     }
     text += relight_text(emitter, section);
     emitter.plan.specular_apart = specular_apart(emitter);

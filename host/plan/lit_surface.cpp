@@ -39,7 +39,12 @@ std::string lit_surface_text(Emitter& emitter, Section& section) {
                 "        const wr_real bounce_{0} = wr_bounce({0}, p, sky_on_base, lighting, lights);\n", k);
     }
     if (relights_metal(emitter)) text += metal_object_text(emitter, section);
-    return text + roughness_text(emitter, section);
+    return text + roughness_text(emitter, section) +
+           "        wr_lit_point lit_point = {p, n, base, v, albedo, roughness};\n";
+}
+
+std::string lit_point_text(const std::string& n, const std::string& roughness) {
+    return fmt::format("        lit_point.n = {}, lit_point.roughness = {};\n", n, roughness);
 }
 
 bool has_light_table(const Emitter& emitter) {
