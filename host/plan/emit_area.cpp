@@ -80,9 +80,9 @@ constexpr const char* kSides =
     "            const wr_real part = share / (wr_real)((WR_SCALAR)sides);\n"
     "#pragma nounroll\n"
     "            for (int side = 0; side < sides; ++side) {\n"
-    "            const wr_vec2 off = wr_side(around, alone ? (wr_real)((WR_SCALAR)side)\n"
-    "                                                      : (wr_real)((WR_SCALAR)(2 * (tap & 1) + (side & 1))));\n"
-    "            wr_vec3 bent = wr_resolve_slopes(n, right, down, wr_add(slope, off));\n"
+    "            const wr_vec2 tilt = wr_add(slope, wr_side(around, alone ? (wr_real)((WR_SCALAR)side)\n"
+    "                                                      : (wr_real)((WR_SCALAR)(2 * (tap & 1) + (side & 1)))));\n"
+    "            wr_vec3 bent = wr_resolve_slopes(n, right, down, tilt, lift);\n"
     "            bent = wr_select(wr_sound(bent), bent, n);\n";
 
 /// Text that adds the light on a point to the sums.
@@ -198,10 +198,12 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
         if (area.writes.contains(sum.value))
             text +=
                 fmt::format("            {0} = wr_select(on, wr_fma({1}, share, {0}), {0});\n", sum.name, sum.value);
-    // The axes are orthonormal on the surface, so what a gradient in space has on them is its projection's.
+    // The axes are orthonormal on the surface, so what a gradient in space has on them is its projection's. Layers that
+    // are not projected leave a part along n in g.
     if (use.spread)
         text += fmt::format("            wr_vec2 slope = wr_on_axes({}, right, down);\n",
                             use.space ? "wr_add(g, dh_dp)" : "g");
+    if (use.lights) text += "            const wr_real lift = wr_dot(g, n);\n";
     // Here `finer` still holds only how slopes vary within one point's share of the area, and that alone spreads the
     // light on the point; how they vary from point to point is added below.
     if (use.lights) text += add_light_text(emitter);

@@ -186,15 +186,16 @@ bool sums_light(const Emitter& emitter);
 /// The terms of the light, with and without bumps, to be added up.
 Section emit_light_terms(Emitter& emitter, const LightEnd& end);
 Section emit_lighting(Emitter& emitter, const LightEnd& end);
-/// A radiance that lighting needs of every normal: the value that holds it, and the text that computes it of `lit_point`
-/// (lit_point_text), with {n} and {roughness} for what stands there.
+/// A radiance that lighting needs of every normal: the value that holds it, and the text that computes it from
+/// `lit_point` (lit_point_text), with {n} and {roughness} for what stands there.
 struct LitTerm {
     std::string value, call;
 
     std::string of(const std::string& n, const std::string& roughness) const;
 };
 std::vector<LitTerm> lit_terms(const Emitter& emitter);
-/// Kernel text that declares v, albedo and roughness of the pixel, `lit_point`, and what lit_terms read of a table of lights.
+/// Kernel text that declares v, albedo and roughness of the pixel, `lit_point`, and what lit_terms read of a table of
+/// lights.
 std::string lit_surface_text(Emitter& emitter, Section& section);
 /// Kernel text that gives `lit_point` a normal and a roughness.
 std::string lit_point_text(const std::string& n, const std::string& roughness);

@@ -17,9 +17,11 @@ TEST(Resolve, SlopesAlongTwoAxes) {
         c.add("slopes, seed " + std::to_string(seed), hard);
         c.in("n", cases::Random::rounded(n)), c.in("right", cases::Random::rounded(right));
         c.in("down", cases::Random::rounded(down)), c.in("slope", slope);
-        c.out("bent", normalize(n - right * slope.x - down * slope.y));
+        const real lift = seed % 3 == 0 ? static_cast<float>(random.uniform(-3, 0.9L)) : 0;
+        c.in("lift", lift);
+        c.out("bent", normalize(n * (1 - lift) - right * slope.x - down * slope.y));
     }
-    check(c, "wr_vec3 bent = wr_resolve_slopes(n, right, down, slope);",
+    check(c, "wr_vec3 bent = wr_resolve_slopes(n, right, down, slope, lift);",
           {{"bent", xyz("bent"), ErrorMeasure::degrees, 2e-5, 2e-5, 1e-5}});
 }
 
