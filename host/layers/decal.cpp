@@ -94,12 +94,12 @@ std::string emit(LayerText& at) {
     const bool mixed = decal_of(at.layer).mode == DecalMode::projector;
     if (mixed && (facing || at.emitter.options.volume_gradient))
         throw Error(at.who + ": mode = \"projector\" mixes normals, and sums of gradients know none");
-    at.section.reads.insert({"p", "dh_dp"});
+    at.section.reads.insert("p");
     at.section.writes.insert(mixed ? "g" : "dh_dp");
-    if (mixed) {
-        at.section.reads.insert("g");
+    if (mixed)
         at.section.operations += static_cast<double>(at.layers.size()) * kMixed;
-    }
+    else
+        at.section.reads.insert("dh_dp");
     if (!facing) at.section.reads.insert("n");
     if (at.layer.footprint) at.section.reads.insert({"dp_dx", "dp_dy"});
     // Which boxes a pixel's area may cross is found once for all of its points: most cross none.
@@ -107,7 +107,7 @@ std::string emit(LayerText& at) {
     if (at.over_area() && at.emitter.options.skip && at.emitter.scene.filter.taps > 1) {
         const std::string crosses = fmt::format("crosses_{}", first);
         at.declared += fmt::format("        uint {} = 0;\n", crosses);
-        at.prepared += fmt::format(
+        at.before += fmt::format(
             "        for (uint i = 0; i < {0}; ++i)\n"
             "            {1} |= (uint)(wr_any(valid & wr_may_cross_box(decals + {2} + i, p, taps.along, shares.begin,\n"
             "                fma(shares.length, taps.count, shares.begin))) ? 1 : 0) << i;\n",
@@ -130,10 +130,11 @@ std::string emit(LayerText& at) {
         facing ? "" : " * wr_projector_angle_fade(decal, n)",
         at.lod("wr_projector_step(decal, in, dp_dx)", "wr_projector_step(decal, in, dp_dy)"),
         sample_text(decal_of(at.layer).texture, "wr_projector_st(in)", "lod", "weight != 0"),
-        mixed ? "wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
-                "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_projector_bumped_axis(decal, in, "
-                "slope), "
-                "weight), below));"
+        mixed ? "wr_vec3 below = " + at.below() +
+                    ";\n"
+                    "            g = wr_add(g, wr_sub(wr_combine_towards(n, below, wr_projector_bumped_axis(decal, in, "
+                    "slope), "
+                    "weight), below));"
               : "dh_dp = wr_projector_blend(decal, in, slope, weight, dh_dp);");
 }
 

@@ -108,12 +108,11 @@ std::string emit(LayerText& at) {
         return text + fmt::format("        g = wr_fma(wr_surface_gradient_from_tbn(slope, {}), m * {}, g);\n", frame,
                                   at.strength());
     at.section.operations += kCombine;
-    at.section.reads.insert("dh_dp");
     return text + fmt::format(
-                      "        wr_vec3 below = wr_add(g, wr_surface_gradient_from_volume(n, dh_dp));\n"
+                      "        wr_vec3 below = {};\n"
                       "        wr_vec3 detail = wr_scale(wr_surface_gradient_from_tbn(slope, {}), (wr_real)({}));\n"
                       "        g = wr_fma(wr_sub({}(below, detail), below), m, g);\n",
-                      frame, at.strength(), combine_function(l.combine));
+                      at.below(), frame, at.strength(), combine_function(l.combine));
 }
 
 constexpr const char* tangent_roles[] = {"uv", "tangent", "tangent_sign or bitangent"};

@@ -19,21 +19,15 @@ std::string count_text(Emitter& emitter) {
     return fmt::format("        taps.count = wr_tap_count(taps, (int)numbers[{}], wanted);\n", most);
 }
 
-/// Texts that part a pixel's area into shares, and set what layers see of the one that belongs to a point.
-constexpr const char* kShares =
-    "        const wr_shares shares = wr_shares_of(taps);\n"
-    "        const wr_vec3 share_dx = wr_scale(taps.along, shares.length), share_dy = taps.across;\n";
-constexpr const char* kShareUv =
-    "        const wr_texcoord axes_uv = wr_along_area(uv, taps);\n"
-    "        const wr_texcoord share_uv = {uv.st, wr_scale(axes_uv.dx, shares.length), axes_uv.dy};\n";
+/// Texts that part a pixel's area into shares, and set the position of the point of one.
+constexpr const char* kShares = "        const wr_shares shares = wr_shares_of(taps);\n";
+constexpr const char* kAxesUv = "        const wr_texcoord axes_uv = wr_along_area(uv, taps);\n";
 constexpr const char* kPoint =
     "            const wr_mask on = valid & (taps.count > (wr_real)((WR_SCALAR)tap));\n"
     "            if (!wr_any(on)) break;\n"
     "            wr_real weight, shift = wr_tap_at(taps, shares, tap, &weight);\n"
     "            const wr_real share = on ? weight : (wr_real)(0);\n"
     "            wr_vec3 p = wr_fma(taps.along, shift, centre);\n";
-constexpr const char* kPointUv =
-    "            const wr_texcoord uv = {wr_add(axes_uv.st, wr_scale(axes_uv.dx, shift)), share_uv.dx, share_uv.dy};\n";
 constexpr const char* kPointLow =
     "            wr_vec3 p_low;\n"
     "            p = wr_moved(centre, centre_low, wr_scale(taps.along, shift), &p_low);\n";
@@ -87,7 +81,10 @@ constexpr const char* kSides =
 
 /// Text that adds the light on a point to the sums.
 std::string add_light_text(const Emitter& emitter) {
+    // On one lane found anew at each point: kept through the loop, it would take three registers.
     std::string text =
+        fmt::format("            if (WR_LANES == 1) lit_point.v = v = {};\n",
+                    to_viewer_text(emitter, "wr_anew(centre, tap)")) +
         kSides + lit_point_text("bent", "wr_widened_roughness(roughness, wr_scale(finer, (wr_real)(WR_LIGHT_SPREAD)))");
     for (const LitTerm& term : lit_terms(emitter))
         text += fmt::format(
@@ -98,6 +95,14 @@ std::string add_light_text(const Emitter& emitter) {
 }
 
 }  // namespace
+
+std::string share_text(bool uv, const std::string& tap, const std::string& shift) {
+    return fmt::format(
+               "        const wr_vec3 dp_dx = wr_share_dx(taps, shares, {0}), dp_dy = wr_anew(taps.across, {0});\n",
+               tap) +
+           (uv ? fmt::format("        const wr_texcoord uv = wr_share_uv(axes_uv, shares, {}, {});\n", shift, tap)
+               : "");
+}
 
 std::string axis_text(const Emitter& emitter) {
     std::string right = "(wr_real)(0)", down = right;
@@ -134,7 +139,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     Section area;
     area.title = "layers over the pixel's area";
     area.reads = {"valid", "p", "n", "dp_dx", "dp_dy"};
-    std::string own_sums, own_stores, masks, prepared, bumps, wanted;
+    std::string own_sums, own_stores, masks, before, bumps, wanted;
     for (const Section& section : sections) {
         area.reads.insert(section.reads.begin(), section.reads.end());
         area.writes.insert(section.writes.begin(), section.writes.end());
@@ -145,8 +150,8 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
         own_sums += own_sum_text(section);
         own_stores += own_store_text(section);
         masks += section.masks;
+        before += section.before;
         wanted += (wanted.empty() ? "" : " | ") + section.wanted;
-        prepared += section.prepared;
         bumps += fmt::format("            // {}\n            {{\n{}            }}\n", section.kind, section.body);
     }
     area.reads.insert({"g", "dh_dp"});
@@ -177,21 +182,16 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
            fmt::format("        const wr_mask wanted = {};\n        if ({}) {{\n", wanted,
                        all || !emitter.options.skip ? "1" : "wr_any(wanted)") +
            (one ? "" : axis_text(emitter) + count_text(emitter)) + sums +
-           "        const wr_vec3 centre = p, before = g, before_space = dh_dp;\n" +
-           (one ? "        const wr_vec3 share_dx = dp_dx, share_dy = dp_dy;\n" : kShares);
-    if (uv) text += one ? "        const wr_texcoord share_uv = uv;\n" : kShareUv;
+           "        const wr_vec3 centre = p, before = g, before_space = dh_dp;\n" + (one ? "" : kShares);
+    if (uv && !one) text += kAxesUv;
     if (low) text += "        const wr_vec3 centre_low = p_low;\n";
-    // Layers filter over one point's share of the area: in this block, dp_dx, dp_dy and uv are those of a share.
-    text += "        {\n        const wr_vec3 dp_dx = share_dx, dp_dy = share_dy;\n";
-    if (uv) text += "        const wr_texcoord uv = share_uv;\n";
+    text += before;
+    text += one ? "        for (int tap = 0; tap < 1; ++tap) {\n"
+                : "#pragma nounroll\n        for (int tap = 0;; ++tap) {\n";
     text +=
-        prepared +
-        (one ? "        for (int tap = 0; tap < 1; ++tap) {\n"
-             : "#pragma nounroll\n        for (int tap = 0;; ++tap) {\n") +
         (one ? kCentre : kPoint) +
         fmt::format("            wr_vec3 g = before, dh_dp = before_space{};\n            const wr_mask valid = on;\n",
                     use.spread ? ", finer = wr_zero3()" : "");
-    if (uv) text += one ? "            const wr_texcoord uv = share_uv;\n" : kPointUv;
     if (low) text += one ? "            wr_vec3 p_low = centre_low;\n" : kPointLow;
     text += bumps;
     for (const Sum& sum : kSums)
@@ -208,7 +208,7 @@ Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const 
     // light on the point; how they vary from point to point is added below.
     if (use.lights) text += add_light_text(emitter);
     if (use.spread) text += kAddSpread;
-    text += "        }\n        }\n";
+    text += "        }\n";
     for (const Sum& sum : kSums)
         if (area.writes.contains(sum.value)) text += fmt::format("        {} = {};\n", sum.value, sum.name);
     if (use.spread) text += kSpreadEnd;

@@ -23,7 +23,7 @@ std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, 
     return count;
 }
 
-Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
+Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers, bool space) {
     const Layer& layer = *layers.front();
     const LayerKind& kind = emitter.kind(layer);
     Section section;
@@ -34,15 +34,25 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
     const std::size_t known_textures = emitter.plan.textures.size();
     section.area = varies_over_area(emitter, layer);
     const MaskText mask = emit_mask_parts(emitter, layer, section);
-    LayerText text{emitter, layers, layer, who, section};
+    LayerText text{emitter, layers, layer, who, section, space};
     const std::string bump = kind.emit ? kind.emit(text) : "";
     for (PlannedTexture& texture : std::span(emitter.plan.textures).subspan(known_textures)) texture.layer = who;
+    const std::size_t index = emitter.index_of(layer);
     std::string condition = "wr_any(active)";
     if (emitter.options.switches) condition = fmt::format("{} != 0 && {}", text.strength(), condition);
-    const std::size_t index = emitter.index_of(layer);
-    section.body = mask.rest + (text.active_at_any_point ? fmt::format("        active = wanted_{};\n", index) : "") +
+    // In every layer's own blocks, so that nothing of it is kept from layer to layer.
+    const auto share = [&](const char* tap, const char* shift) {
+        return section.area && emitter.scene.filter.taps > 1 ? share_text(section.reads.contains("uv"), tap, shift)
+                                                             : "";
+    };
+    const std::string here = share("tap", "shift"),
+                      prepared = text.prepared.empty()
+                                     ? ""
+                                     : fmt::format("        if (WR_LANES == 1) {{\n{}        }}\n", text.prepared);
+    section.body = (layer.mask.texture ? here : "") + mask.rest +
+                   (text.active_at_any_point ? fmt::format("        active = wanted_{};\n", index) : "") +
                    (emitter.options.skip ? "" : "        active = (wr_mask)(-1);\n") +
-                   fmt::format("        if ({}) {{\n{}        }}\n", condition, bump);
+                   fmt::format("        if ({}) {{\n{}{}{}        }}\n", condition, here, prepared, bump);
     if (writes_own_gradient(emitter, layer)) add_own_gradient(section, index);
     if (!section.area) {
         section.body = mask.planes + section.body;
@@ -57,9 +67,12 @@ Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers) {
         section.masks +=
             fmt::format("        wanted_{0} = wanted_{0} & ({1} != 0);\n", index, layer.mask.invert ? "(1 - m)" : "m");
     section.masks += "        }\n";
+    if (!text.before.empty())
+        section.before = fmt::format("        if (wr_any(wanted_{})) {{\n{}        }}\n", index, text.before);
     if (!text.prepared.empty())
-        section.prepared = fmt::format(
-            "        if (wr_any(wanted_{0})) {{\n        wr_real m = mask_{0};\n{1}        }}\n", index, text.prepared);
+        section.before += fmt::format(
+            "        if (WR_LANES > 1 && wr_any(wanted_{0})) {{\n        wr_real m = mask_{0};\n{1}{2}        }}\n",
+            index, share("0", "(wr_real)(0)"), text.prepared);
     section.body = fmt::format("        wr_real m = mask_{};\n", index) + section.body;
     return section;
 }

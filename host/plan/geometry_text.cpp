@@ -89,10 +89,9 @@ const char* view_text(const Emitter& emitter) {
     return emitter.available.camera == CameraKind::parallel ? "wr_v3(camera->forward)" : "p";
 }
 
-const char* to_viewer_text(const Emitter& emitter) {
-    return emitter.available.camera == CameraKind::parallel
-               ? "wr_normalize(wr_scale(wr_v3(camera->forward), (wr_real)(-1)))"
-               : "wr_normalize(wr_scale(p, (wr_real)(-1)))";
+std::string to_viewer_text(const Emitter& emitter, const std::string& p) {
+    return fmt::format("wr_normalize(wr_scale({}, (wr_real)(-1)))",
+                       emitter.available.camera == CameraKind::parallel ? "wr_v3(camera->forward)" : p);
 }
 
 std::string derivative_text(const Emitter& emitter, const std::string& along) {

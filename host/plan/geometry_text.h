@@ -25,7 +25,7 @@ std::string load_normal(const std::string& load, const std::string& indent);
 std::string sanitize(const GeometryText& geometry, const std::string& indent);
 /// Text of a vector along the pixel's ray, away from the viewer, of any length.
 const char* view_text(const Emitter& emitter);
-/// Text of the unit vector from p to the viewer.
-const char* to_viewer_text(const Emitter& emitter);
+/// Text of the unit vector to the viewer from the point that the text `p` gives.
+std::string to_viewer_text(const Emitter& emitter, const std::string& p = "p");
 
 }  // namespace wrinkle

@@ -123,6 +123,13 @@ std::string LayerText::slopes(const std::string& function, const std::string& ar
     return spreads ? text + spread(basis + ".s", basis + ".t") : text;
 }
 
+std::string LayerText::below() {
+    section.reads.insert("g");
+    if (!space) return "g";
+    section.reads.insert("dh_dp");
+    return "wr_add(g, wr_surface_gradient_from_volume(n, dh_dp))";
+}
+
 std::string LayerText::volume(const std::string& gradient) {
     const char* sum = layer.project ? "dh_dp" : "g";
     section.reads.insert(sum);

@@ -12,10 +12,12 @@ struct LayerText {
     const Layer& layer;                       ///< the first of them
     const std::string who;                    ///< starts messages
     Section& section;
-    /// Parts of the text that hold for all points of a pixel's area: `declared`, declarations before the loop over the
-    /// points; `prepared`, statements before it, which are skipped where no pixel wants the layer. Both are empty where
-    /// there is no such loop.
-    std::string declared{}, prepared{};
+    const bool space;  ///< a layer before it in the stage adds to dh_dp
+    /// What holds for all points of a pixel's area: `declared`, declarations before the loop over the points; `before`,
+    /// statements there; `prepared`, statements that are there too, but on one lane are at every point: registers are
+    /// the scarcer there, and what is computed anew takes none between points. Both are skipped where no pixel wants
+    /// the layer. All are empty where there is no such loop.
+    std::string declared{}, before{}, prepared{};
     /// The layer's text has declared `lost`: the covariance of slopes finer than one point's share of the area.
     bool loses = false;
     /// Set by a layer whose text, at one point, also needs the lanes that want the layer at another point only:
@@ -37,7 +39,8 @@ struct LayerText {
     std::string strength();
     /// "_exact" if the layer is to use the exact variants of kernel functions, which have names that end so; else "".
     const char* exactly() const;
-    /// Kernel text of a value that is the same at every point of a pixel's area, and is computed once for all of them.
+    /// Kernel text of a value that is the same at every point of a pixel's area, and may be computed once for all of
+    /// them.
     std::string once(const char* type, const char* name, const std::string& value);
     /// Text of the level of detail of texture `t`, given the screen derivatives of its coordinates.
     std::string lod(const std::string& dx, const std::string& dy) const;
@@ -56,6 +59,8 @@ struct LayerText {
     /// Empty unless tells_spread().
     ///   along_s, along_t   text of the surface gradients that a slope of 1 along s, and one along t, makes
     std::string spread(const std::string& along_s, const std::string& along_t);
+    /// Kernel text of the surface gradient of all layers before this one in the stage.
+    std::string below();
     /// Adds a volume gradient: to dh_dp, which is projected onto the surface later, or to g if the layer is not
     /// projected.
     std::string volume(const std::string& gradient);

@@ -42,7 +42,7 @@ std::vector<Stage> emit_stages(Emitter& emitter) {
         std::vector<const Layer*> together;
         for (std::size_t k = 0; k < count; ++k) together.push_back(&layers[i + k]);
         Stage& stage = stages.back();
-        stage.layers.push_back(emit_layers(emitter, together));
+        stage.layers.push_back(emit_layers(emitter, together, stage.end.volume));
         const Section& section = stage.layers.back();
         if (section.reads.contains("uv")) stage.mapped.push_back(together.front());
         stage.reads.insert(section.reads.begin(), section.reads.end());

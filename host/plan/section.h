@@ -31,9 +31,9 @@ struct Section {
     std::vector<SectionSummary> parts{};  ///< what `explain` lists; empty: the section itself
     bool area =
         false;  ///< a layer whose body is evaluated at several points of a pixel's area; it has, before the first:
-    std::string wanted;    ///< ... the name of the mask that is true where the layer is wanted
-    std::string masks;     ///< ... its declarations, and the mask as far as it comes from planes
-    std::string prepared;  ///< ... then the statements that set what all points share
+    std::string wanted;  ///< ... the name of the mask that is true where the layer is wanted
+    std::string masks;   ///< ... its declarations, and the mask as far as it comes from planes
+    std::string before;  ///< ... then its statements, where the shares of the area are known
 };
 
 /// What emitters share while a plan grows.
@@ -85,7 +85,8 @@ std::string layer_label(const Layer& layer);
 std::string row_place(const DecalsLayer& table, std::size_t row);
 
 /// The section of one layer, or of several that share a loop.
-Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers);
+///   space   a layer before them in the stage adds to dh_dp
+Section emit_layers(Emitter& emitter, const std::vector<const Layer*>& layers, bool space);
 /// How many layers from `first` on go into one section.
 std::size_t layers_together(LayerKinds kinds, const std::vector<Layer>& layers, std::size_t first);
 /// Kernel text that sets `m`, in [0,1], and `active`, in two parts: the factors that come from planes, which hold for
@@ -141,6 +142,9 @@ struct AreaUse {
 Section emit_area(Emitter& emitter, const std::vector<Section>& sections, const AreaUse& use);
 /// Whether layers are evaluated over pixels' areas: at several points, or at one with the spread around it.
 bool walks_area(const Emitter& emitter);
+/// Kernel text that declares dp_dx and dp_dy, and uv if that is wanted, over a point's share of a pixel's area.
+///   tap, shift   text of the point's number, and of its place (wr_tap_at)
+std::string share_text(bool uv, const std::string& tap, const std::string& shift);
 /// Kernel text that declares `taps`: the long axis of the pixel's area, and one point on it.
 std::string axis_text(const Emitter& emitter);
 /// Whether a layer is evaluated over pixels' areas. A table of decals is not if a parallax before it moves points: the
