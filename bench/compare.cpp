@@ -44,7 +44,9 @@ bool compare(const Run& before, const Run& now) {
         for (const auto& [category, stats] : m.hard)
             if (const auto was = old.hard.find(category); was != old.hard.end())
                 less_accurate |= grew(was->second, stats);
-        if (less_accurate && m.lanes > 0) {  // not of C++, whose rounding depends on this machine's instructions
+        // The rounding of C++ depends on this machine's instructions; but C++ that computes something else is no peer.
+        const bool another = m.lanes > 0 || m.error.median > 10 * old.error.median;
+        if (less_accurate && another) {
             ++worse;
             fmt::print("  LESS ACCURATE      {}: p99 {:.2g} -> {:.2g}, max {:.2g} -> {:.2g} {}\n", m.key(),
                        old.error.p99, m.error.p99, old.error.max, m.error.max, m.unit);

@@ -122,7 +122,7 @@ void add(const Triplanar& map, const PreparedLayer& layer, const Place& at, cons
     sums.volume += (k * map.slope_scale) * triplanar_volume_gradient(w, d_x, d_y, d_z);
 }
 
-/// A fractal sum. An octave fades out while a pixel grows from a quarter to half of its cell.
+/// A fractal sum. An octave fades with the weight by which its gradient comes closest to its mean over the pixel.
 void add(const Noise& noise, const PreparedLayer& layer, const Place& at, const Pixel& px, AovUv& aov, Sums& sums) {
     const float k = weight(layer, at, px, aov);
     if (k == 0.0F) return;
@@ -130,8 +130,8 @@ void add(const Noise& noise, const PreparedLayer& layer, const Place& at, const 
     const float pixel = layer.footprint ? std::sqrt(std::fmax(dot(px.dp_dx, px.dp_dx), dot(px.dp_dy, px.dp_dy))) : 0.0F;
     float3 gradient;
     for (const Noise::Octave& octave : noise.octaves) {
-        const float fade = clamp01(2.0F - 4.0F * pixel * octave.frequency);
-        if (fade > 0.0F) gradient += (fade * octave.amplitude) * perlin_noise(octave.frequency * p).gradient;
+        const float cells = pixel * octave.frequency, side = 1.0F - 0.435F * cells * cells;
+        if (side > 0.0F) gradient += (side * side * octave.amplitude) * perlin_noise(octave.frequency * p).gradient;
     }
     sums.volume += k * gradient;
 }

@@ -84,9 +84,7 @@ Pyramid<T>::Pyramid(const std::vector<Grid<T>>& levels, Wrap wrap)
 Pyramid<float> scalar_pyramid(const Image& image, Wrap wrap) { return {mip_chain(first_channel(image)), wrap}; }
 
 Pyramid<float2> height_slope_pyramid(const Image& image, Wrap wrap) {
-    std::vector<Grid<float2>> slopes;
-    for (const Grid<float>& level : mip_chain(first_channel(image))) slopes.push_back(sobel_slopes(level, wrap));
-    return {slopes, wrap};
+    return {mip_chain(sobel_slopes(first_channel(image), wrap)), wrap};
 }
 
 Pyramid<float2> normal_slope_pyramid(const Image& image, Wrap wrap, bool y_down) {

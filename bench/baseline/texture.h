@@ -71,11 +71,12 @@ struct Footprint {
     float lod = 0, texels = 1;
 };
 
-/// CalculateLevelOfDetail() of the listings: 0.5 log2 of the larger squared length, in [0, top].
+/// CalculateLevelOfDetail() of the listings, 0.5 log2 of the larger squared length, less log2(sqrt(3)), at which a
+/// bilinear sample blurs as much as the pixel does; in [0, top].
 inline Footprint footprint(float2 dst_dx, float2 dst_dy, int width, int height, float top) {
     const float w = static_cast<float>(width), h = static_cast<float>(height);
     const float2 a{dst_dx.x * w, dst_dx.y * h}, b{dst_dy.x * w, dst_dy.y * h};
-    const float texels2 = std::fmax(dot(a, a), dot(b, b));
+    const float texels2 = std::fmax(dot(a, a), dot(b, b)) / 3;
     if (!(texels2 > 1.0F)) return {};
     const float lod = 0.5F * std::log2(texels2);
     if (!(lod < top)) return {top, std::exp2(top)};
@@ -85,8 +86,8 @@ inline Footprint footprint(float2 dst_dx, float2 dst_dy, int width, int height, 
 /// Channel 0 of an image: for masks, and for heights that are differenced at every sample.
 Pyramid<float> scalar_pyramid(const Image& image, Wrap wrap);
 
-/// dh/ds, dh/dt by the Sobel operator on each level [Mik20 eq. 20, 21]. The smooth half of listing 16 computes them at
-/// every sample, from 4x4 heights; computed once at load, a sample reads 4 texels instead of 16.
+/// dh/ds, dh/dt by the Sobel operator [Mik20 eq. 20, 21]. The smooth half of listing 16 computes them at every sample,
+/// from 4x4 heights; computed once at load, a sample reads 4 texels instead of 16. Mips are means of slopes.
 Pyramid<float2> height_slope_pyramid(const Image& image, Wrap wrap);
 
 /// Listing 2 for every texel, at load: a sample then needs no division and one channel less. Mips are means of slopes.

@@ -44,6 +44,14 @@ TEST(Compare, FlagsWhatBecameLessAccurate) {
     EXPECT_FALSE(kept);
 }
 
+TEST(Compare, FlagsPeersThatComputeSomethingElse) {
+    Measurement before = measurement("a", 1, 1e-5), now = measurement("a", 1, 3e-5);
+    before.lanes = now.lanes = 0;
+    EXPECT_TRUE(compared(run_of({before}), run_of({now})).second);
+    now.error.median = 1;
+    EXPECT_FALSE(compared(run_of({before}), run_of({now})).second);
+}
+
 TEST(Compare, FlagsHardInputsAndResultsThatAreNotFinite) {
     Measurement before = measurement("a", 1, 1e-5), now = before;
     before.hard["grazing"] = now.hard["grazing"] = {1e-6, 1e-5, 1e-5, 10, 0};
